@@ -1,0 +1,69 @@
+// Vitrine in a program of your own, in 60 lines: make a context current, create a renderer, give it a mesh
+// and an environment, draw. Only vitrine.h is needed; the context here comes from native/context.h so that
+// the example runs anywhere, your program has its own (GLFW, SDL, EGL, a browser canvas).
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "context.h"
+#include "vitrine.h"
+
+static int fail(const char* doing, const vtError* error)
+{
+    fprintf(stderr, "%s: %s\n", doing, error->message);
+    return 1;
+}
+
+int main(int argc, char** argv)
+{
+    enum { width = 320, height = 240 };
+    vtError error;
+
+    // 1. A current GL context.
+    vtContext context;
+    if (vtCreateContext(vt_backendAuto, &context, &error) != vt_ok) {
+        return fail("context", &error);
+    }
+
+    // 2. The renderer, with the context's function loader.
+    vtRenderer* renderer;
+    if (vtCreateRenderer(&(vtRendererDef){context.getProcAddress}, &renderer, &error) != vt_ok) {
+        return fail("renderer", &error);
+    }
+
+    // 3. What to draw. The renderer copies; nothing needs to be kept.
+    vtMesh mesh;
+    vtEnvironment environment;
+    if (vtCreateShape("goblet", &mesh, &error) != vt_ok ||
+        vtCreateEnvironment("studio", &environment, &error) != vt_ok ||
+        vtRenderer_SetMesh(renderer, &mesh, &error) != vt_ok ||
+        vtRenderer_SetEnvironment(renderer, &environment, &error) != vt_ok) {
+        return fail("scene", &error);
+    }
+
+    // 4. One frame. vtRenderer_Draw would draw it into a framebuffer of yours; this reads it back.
+    vtFrame frame = vtDefaultFrame();
+    frame.width = width;
+    frame.height = height;
+    frame.view = vtFrameMesh(&mesh, 45.0f, (float)width / height);
+    frame.ior = 1.52f;
+    static uint8_t pixels[width * height * 4];
+    if (vtRenderer_DrawImage(renderer, &frame, pixels, &error) != vt_ok) {
+        return fail("draw", &error);
+    }
+
+    FILE* file = argc > 1 ? fopen(argv[1], "wb") : NULL;
+    if (file != NULL) {
+        fprintf(file, "P6 %d %d 255\n", width, height);
+        for (int i = 0; i < width * height; ++i) {
+            fwrite(&pixels[4 * i], 1, 3, file);
+        }
+        fclose(file);
+    }
+
+    // 5. In the reverse order, with the context still current.
+    vtDestroyRenderer(renderer);
+    vtDestroyMesh(&mesh);
+    vtDestroyEnvironment(&environment);
+    vtDestroyContext(&context);
+    return 0;
+}

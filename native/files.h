@@ -1,0 +1,14 @@
+#pragma once
+
+#include "vitrine.h"
+
+/// Reads a whole file ("-": standard input). Fails with vt_errorFile naming path and reason. *bytes is the
+/// caller's to free.
+vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* error);
+
+/// Writes a whole file ("-": standard output). The file appears complete or not at all: it is written
+/// beside its place and renamed, so that an older one stays where something fails.
+vtResult vtWriteFile(const char* path, const void* bytes, size_t size, vtError* error);
+
+/// A vtReadFileFcn for vtModelDef.
+bool vtReadFileForModel(const char* path, uint8_t** bytes, size_t* size, void* userData);

@@ -1,0 +1,130 @@
+#include "load.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "files.h"
+
+static vtResult loadModelFile(const char* path, vtModel* model, vtError* error)
+{
+    uint8_t* bytes;
+    size_t size;
+    vtResult result = vtReadFile(path, &bytes, &size, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    char directory[4096] = "";
+    const char* slash = strrchr(path, '/');
+    if (slash != NULL && (size_t)(slash - path) + 1 < sizeof directory) {
+        memcpy(directory, path, (size_t)(slash - path) + 1);
+    }
+    vtModelDef def = {.bytes = bytes,
+                      .size = size,
+                      .name = path,
+                      .directory = directory,
+                      .readFile = vtReadFileForModel};
+    result = vtLoadModel(&def, model, error);
+    free(bytes);
+    return result;
+}
+
+static bool isShape(const char* name)
+{
+    int i = 0;
+    while (vtShapeName(i) != NULL && strcmp(vtShapeName(i), name) != 0) {
+        ++i;
+    }
+    return vtShapeName(i) != NULL;
+}
+
+static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vtError* error)
+{
+    // Built-in names hold neither a dot nor a slash.
+    if (strpbrk(name, "./") == NULL) {
+        return vtCreateEnvironment(name, environment, error);
+    }
+    uint8_t* bytes;
+    size_t size;
+    vtResult result = vtReadFile(name, &bytes, &size, error);
+    if (result == vt_ok) {
+        result = vtLoadEnvironment(bytes, size, name, environment, error);
+        free(bytes);
+    }
+    return result;
+}
+
+static void printNotes(const char* name, const vtMesh* mesh, bool verbose)
+{
+    if (mesh->openEdgeCount > 0) {
+        fprintf(stderr,
+                "vitrine: warning: '%s' is not closed (%u open edges); light that enters through a hole never "
+                "finds its way out there\n",
+                name, mesh->openEdgeCount);
+    }
+    if (mesh->normalsComputed) {
+        fprintf(stderr, "vitrine: note: '%s' lacks normals; they are computed, smooth over its edges\n", name);
+    }
+    if (verbose) {
+        fprintf(stderr, "vitrine: '%s': %u triangles, %u vertices, box %g %g %g to %g %g %g\n", name,
+                mesh->indexCount / 3, mesh->vertexCount, (double)mesh->boundsMin.x, (double)mesh->boundsMin.y,
+                (double)mesh->boundsMin.z, (double)mesh->boundsMax.x, (double)mesh->boundsMax.y,
+                (double)mesh->boundsMax.z);
+    }
+}
+
+vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
+{
+    *input = (vtInput){0};
+    if (options->model == NULL) {
+        return vtFail(error, vt_errorArgument,
+                      "no model given; name a .glb or .gltf file or a built-in shape (see 'vitrine list')");
+    }
+    vtModel model = {0};
+    vtResult result = isShape(options->model) ? vtCreateShape(options->model, &model.mesh, error)
+                                              : loadModelFile(options->model, &model, error);
+    if (result == vt_ok) {
+        result = loadEnvironment(options->environment, &input->environment, error);
+    }
+    if (result != vt_ok) {
+        vtDestroyModel(&model);
+        return result;
+    }
+    printNotes(options->model, &model.mesh, options->verbose);
+    input->mesh = model.mesh;
+    input->ior = options->ior > 0.0f ? options->ior : model.ior > 0.0f ? model.ior : vtDefaultFrame().ior;
+    return vtSucceed(error);
+}
+
+void vtDestroyInput(vtInput* input)
+{
+    vtDestroyMesh(&input->mesh);
+    vtDestroyEnvironment(&input->environment);
+}
+
+vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* frame, vtError* error)
+{
+    *frame = vtDefaultFrame();
+    frame->technique = vtFindTechnique(options->technique);
+    if (frame->technique == vt_techniqueCount) {
+        return vtFail(error, vt_errorArgument, "technique '%s' is unknown; see 'vitrine list'", options->technique);
+    }
+    frame->output = options->analysis ? vt_outputAnalysis : vt_outputPicture;
+    frame->width = options->size[0];
+    frame->height = options->size[1];
+    frame->ior = input->ior;
+    frame->layers = options->layers;
+    frame->steps = options->steps;
+    frame->refine = options->refine;
+    frame->maxEvents = options->maxEvents;
+    frame->layerSize = options->layerSize;
+
+    vtView framed = vtFrameMesh(&input->mesh, options->fov, (float)frame->width / (float)frame->height);
+    vtVec3 target = options->hasTarget ? options->target : framed.target;
+    vtVec3 offset = vtSub(framed.eye, framed.target);
+    vtVec3 eye = options->hasCamera ? options->camera : vtAdd(target, offset);
+    frame->view = (vtView){eye, target, options->fov};
+    return vtValidateFrame(frame, error);
+}

@@ -1,0 +1,203 @@
+#include "options.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+typedef enum Kind { kindFlag, kindText, kindInteger, kindNumber, kindVector, kindSize } Kind;
+
+typedef struct Option {
+    const char* name;
+    char letter;
+    Kind kind;
+    size_t offset; // in vtOptions
+    double low, high;
+    const char* argument;
+    const char* help;
+    unsigned commands; // bit set of vtCommand
+} Option;
+
+#define RENDER (1u << vt_commandRender)
+#define VIEW (1u << vt_commandView)
+#define AT(field) offsetof(vtOptions, field)
+
+static const Option table[] = {
+    {"output", 'o', kindText, AT(output), 0, 0, "FILE", "the picture, PNG; - is standard output", RENDER},
+    {"technique", 't', kindText, AT(technique), 0, 0, "ID", "see 'vitrine list' (layered)", RENDER | VIEW},
+    {"layers", 0, kindInteger, AT(layers), 1, VT_MAX_LAYERS, "N", "depth layers peeled (4)", RENDER | VIEW},
+    {"steps", 0, kindInteger, AT(steps), 1, VT_MAX_STEPS, "N", "linear search steps a segment (50)", RENDER | VIEW},
+    {"refine", 0, kindInteger, AT(refine), 0, VT_MAX_REFINE, "N", "binary search steps after them (8)", RENDER | VIEW},
+    {"max-events", 0, kindInteger, AT(maxEvents), 1, VT_MAX_EVENTS, "N",
+     "refractions and internal reflections of a path (8)", RENDER | VIEW},
+    {"layer-size", 0, kindInteger, AT(layerSize), 16, 8192, "N",
+     "longer side of the layer textures (that of the picture)", RENDER | VIEW},
+    {"ior", 0, kindNumber, AT(ior), 1, 4, "N", "index of refraction (the file's, else 1.5)", RENDER | VIEW},
+    {"environment", 'e', kindText, AT(environment), 0, 0, "NAME|FILE",
+     "see 'vitrine list', or a .hdr, .png or .jpg, equirectangular (studio)", RENDER | VIEW},
+    {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)", RENDER | VIEW},
+    {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)", RENDER | VIEW},
+    {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", RENDER | VIEW},
+    {"resolution", 'r', kindSize, AT(size), 1, 16384, "W,H", "pixels (512,512)", RENDER | VIEW},
+    {"directions", 0, kindText, AT(directions), 0, 0, "FILE",
+     "exit directions as PFM; 0,0,0 background, 2,2,2 lost", RENDER},
+    {"layer-sheet", 0, kindText, AT(layerSheet), 0, 0, "FILE", "depth and normal of each layer, PNG", RENDER},
+    {"analysis", 0, kindFlag, AT(analysis), 0, 0, NULL,
+     "path colours: red 2 refractions, blue more, green total reflection, grey lost", RENDER | VIEW},
+    {"rendering-backend", 0, kindText, AT(backend), 0, 0, "auto|osmesa|egl", "headless GL (auto)", RENDER},
+    {"frames", 0, kindInteger, AT(frames), 1, 1000000, "N", "close the window after so many frames", VIEW},
+    {"verbose", 'v', kindFlag, AT(verbose), 0, 0, NULL, "say what is done, on what, with how much memory",
+     RENDER | VIEW},
+    {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", RENDER | VIEW},
+};
+#define OPTION_COUNT ((int)(sizeof table / sizeof table[0]))
+
+/// Reads `count` numbers separated by commas (or an x between two) and nothing else.
+static bool readNumbers(const char* text, double* numbers, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        char* end;
+        numbers[i] = strtod(text, &end);
+        bool last = i == count - 1;
+        if (end == text || !isfinite(numbers[i]) || (last ? *end != '\0' : *end != ',' && *end != 'x')) {
+            return false;
+        }
+        text = end + 1;
+    }
+    return true;
+}
+
+static vtResult storeNumbers(const Option* option, const char* text, void* field, vtError* error)
+{
+    double numbers[3] = {0};
+    int count = option->kind == kindVector ? 3 : option->kind == kindSize ? 2 : 1;
+    if (!readNumbers(text, numbers, count)) {
+        return vtFail(error, vt_errorArgument, "--%s is '%s'; it must be %s", option->name, text,
+                      count == 3   ? "three numbers X,Y,Z"
+                      : count == 2 ? "two whole numbers W,H"
+                                   : "a number");
+    }
+    for (int i = 0; i < count && option->kind != kindVector; ++i) {
+        bool whole = option->kind == kindNumber || numbers[i] == floor(numbers[i]);
+        if (!whole || numbers[i] < option->low || numbers[i] > option->high) {
+            return vtFail(error, vt_errorArgument, "--%s is %s; it must be %s from %g to %g", option->name, text,
+                          option->kind == kindNumber ? "a number" : "a whole number", option->low, option->high);
+        }
+    }
+    switch (option->kind) {
+    case kindInteger:
+        *(int*)field = (int)numbers[0];
+        break;
+    case kindNumber:
+        *(float*)field = (float)numbers[0];
+        break;
+    case kindSize:
+        ((int*)field)[0] = (int)numbers[0];
+        ((int*)field)[1] = (int)numbers[1];
+        break;
+    default:
+        *(vtVec3*)field = (vtVec3){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
+        break;
+    }
+    return vt_ok;
+}
+
+static vtResult store(const Option* option, char* value, vtOptions* options, vtError* error)
+{
+    void* field = (char*)options + option->offset;
+    if (option->kind == kindFlag) {
+        *(bool*)field = true;
+        return vt_ok;
+    }
+    if (option->kind == kindText) {
+        *(const char**)field = value;
+        return vt_ok;
+    }
+    options->hasCamera |= option->offset == AT(camera);
+    options->hasTarget |= option->offset == AT(target);
+    return storeNumbers(option, value, field, error);
+}
+
+vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* options, vtError* error)
+{
+    vtFrame frame = vtDefaultFrame();
+    *options = (vtOptions){
+        .environment = "studio",
+        .technique = vtTechnique_Info(frame.technique)->id,
+        .backend = "auto",
+        .size = {frame.width, frame.height},
+        .layers = frame.layers,
+        .steps = frame.steps,
+        .refine = frame.refine,
+        .maxEvents = frame.maxEvents,
+        .fov = frame.view.fovY,
+    };
+
+    // The table in getopt's form.
+    struct option longOptions[OPTION_COUNT + 1] = {0};
+    char letters[2 * OPTION_COUNT + 2] = ":";
+    for (int i = 0, used = 0, length = 1; i < OPTION_COUNT; ++i) {
+        if ((table[i].commands & (1u << command)) == 0) {
+            continue;
+        }
+        bool takesValue = table[i].kind != kindFlag;
+        longOptions[used++] = (struct option){table[i].name, takesValue, NULL, 256 + i};
+        if (table[i].letter != 0) {
+            letters[length++] = table[i].letter;
+            letters[length] = ':';
+            length += takesValue;
+            letters[length] = '\0';
+        }
+    }
+
+    opterr = 0;
+    optind = 1;
+    int code;
+    while ((code = getopt_long(count, words, letters, longOptions, NULL)) != -1) {
+        const char* word = words[optind - 1];
+        if (code == ':') {
+            return vtFail(error, vt_errorArgument, "option %s needs a value; see 'vitrine %s --help'", word, words[0]);
+        }
+        if (code == '?') {
+            return vtFail(error, vt_errorArgument, "unknown option %s; see 'vitrine %s --help'", word, words[0]);
+        }
+        const Option* option = &table[0];
+        while (code < 256 ? option->letter != code : option != &table[code - 256]) {
+            ++option;
+        }
+        vtResult result = store(option, optarg, options, error);
+        if (result != vt_ok) {
+            return result;
+        }
+    }
+    if (optind < count) {
+        options->model = words[optind++];
+    }
+    if (optind < count) {
+        return vtFail(error, vt_errorArgument, "one model is drawn at a time; '%s' is a second one", words[optind]);
+    }
+    return vtSucceed(error);
+}
+
+void vtPrintOptions(vtCommand command)
+{
+    for (int i = 0; i < OPTION_COUNT; ++i) {
+        const Option* option = &table[i];
+        if ((option->commands & (1u << command)) == 0) {
+            continue;
+        }
+        char left[64], range[48] = "";
+        char letter[5] = "    ";
+        if (option->letter != 0) {
+            snprintf(letter, sizeof letter, "-%c, ", option->letter);
+        }
+        snprintf(left, sizeof left, "%s--%s %s", letter, option->name, option->argument ? option->argument : "");
+        if (option->high > option->low) {
+            snprintf(range, sizeof range, ", %g to %g", option->low, option->high);
+        }
+        printf("  %-36s %s%s\n", left, option->help, range);
+    }
+}

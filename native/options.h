@@ -1,0 +1,33 @@
+// A command's options as a table: it drives parsing, ranges and --help.
+#pragma once
+
+#include "context.h"
+#include "vitrine.h"
+
+/// All that `render` and `view` can be told. Zero or NULL means "not given" where a default depends on the
+/// model.
+typedef struct vtOptions {
+    const char* model;
+    const char* output;
+    const char* environment;
+    const char* technique;
+    const char* backend;
+    const char* directions;
+    const char* layerSheet;
+    float ior, fov;
+    vtVec3 camera, target;
+    bool hasCamera, hasTarget;
+    int size[2];
+    int layers, steps, refine, maxEvents, layerSize;
+    int frames; ///< view: close after so many, 0: never
+    bool analysis, verbose, help;
+} vtOptions;
+
+typedef enum vtCommand { vt_commandRender, vt_commandView } vtCommand;
+
+/// Parses the words after the command. Fails with a sentence on an unknown option, a missing or malformed
+/// value or one out of range.
+vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* options, vtError* error);
+
+/// Prints the table.
+void vtPrintOptions(vtCommand command);

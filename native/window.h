@@ -1,0 +1,24 @@
+// A GLFW window that turns and zooms a view under the mouse; the same code drives the browser's canvas
+// through Emscripten's GLFW port.
+#pragma once
+
+#include "vitrine.h"
+
+typedef struct vtWindow vtWindow;
+
+/// Opens a window with a current OpenGL ES 3 (else desktop 3.3) context. Fails with vt_errorContext where
+/// there is no display or no GLFW.
+vtResult vtCreateWindow(const char* title, int width, int height, vtWindow** window, vtError* error);
+void vtDestroyWindow(vtWindow* window);
+
+/// Functions of the window's context, for vtRendererDef.
+vtGetProcAddressFcn* vtWindow_GetProcAddress(void);
+
+/// Takes in events and applies the mouse to the view: drag orbits, the wheel zooms. True where the view
+/// changed or the window was resized since the last call.
+bool vtWindow_Poll(vtWindow* window, vtView* view);
+
+/// Size of the framebuffer, pixels.
+void vtWindow_GetSize(const vtWindow* window, int* width, int* height);
+bool vtWindow_ShouldClose(const vtWindow* window);
+void vtWindow_Present(vtWindow* window);

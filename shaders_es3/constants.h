@@ -1,0 +1,26 @@
+// Limits and codes shared by C and GLSL. Only lines that mean the same in both may stand here.
+#define VT_MAX_LAYERS 16
+#define VT_MAX_LAYER_GROUPS 4
+#define VT_MAX_STEPS 1000
+#define VT_MAX_REFINE 32
+#define VT_MAX_EVENTS 64
+
+// A stored depth runs from 0 (near) to VT_DEPTH_SCALE (far) in 16 bits; VT_DEPTH_NONE marks "no surface".
+#define VT_DEPTH_SCALE 65534.0
+#define VT_DEPTH_NONE 65535u
+
+// What became of a path; kept in the lowest byte of the path target's fourth channel.
+#define VT_PATH_BACKGROUND 0
+#define VT_PATH_EXITED 1
+#define VT_PATH_LOST 2
+// The second byte of that channel counts events; this bit is set where total internal reflection took part.
+#define VT_PATH_TIR 65536
+
+// What the present pass shows; the values of vtOutput.
+#define VT_OUTPUT_PICTURE 0
+#define VT_OUTPUT_ANALYSIS 1
+#define VT_OUTPUT_LAYER_DEPTH 2
+#define VT_OUTPUT_LAYER_NORMAL 3
+
+// Packed normal of a texel without a surface: packSnorm2x16 never gives -32768.
+#define VT_NO_NORMAL 0x80008000u

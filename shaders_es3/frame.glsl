@@ -1,0 +1,29 @@
+// The uniform block shared by every pass; mirrors vtFrameUniforms in src/gl/uniforms.h.
+layout(std140) uniform Frame
+{
+    mat4 u_worldToCamera; // (right, up, depth) coordinates of a world point
+    vec4 u_eye;
+    vec4 u_pictureFrustum; // left, bottom, right, top: tangents
+    vec4 u_layerFrustum;
+    vec4 u_pictureDepth; // near, far, 1 / (far - near), 0
+    vec4 u_layerDepth;
+    vec4 u_boundsMin; // the object's box, world
+    vec4 u_boundsMax;
+    vec4 u_optics;   // index of refraction, 0, 0, 0
+    ivec4 u_search;  // layers, linear steps, binary steps, events
+    ivec4 u_size;    // picture width, height, layer width, height
+    ivec4 u_output;  // vtOutput, layer, vtEnvironmentKind, 0
+};
+
+// Unit world direction through a point of the plane at depth 1.
+vec3 cameraDirection(vec2 tangent)
+{
+    // The camera frame is orthonormal, so its transpose turns camera coordinates into world ones.
+    return normalize(vec3(tangent, 1.0) * mat3(u_worldToCamera));
+}
+
+// Tangents at a pixel position (pixel centres at .5, origin bottom left).
+vec2 pictureTangent(vec2 pixel)
+{
+    return mix(u_pictureFrustum.xy, u_pictureFrustum.zw, pixel / vec2(u_size.xy));
+}

@@ -1,0 +1,2 @@
+#define FRUSTUM u_layerFrustum
+#define DEPTH_RANGE u_layerDepth

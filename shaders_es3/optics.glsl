@@ -1,0 +1,34 @@
+// Geometric optics at one surface. The same names and numbers in src/base/optics.h.
+
+// Snell's law in vector form. I: unit direction of travel; N: unit normal against it (N.I < 0); eta: index
+// of refraction behind the ray over the one ahead. Where there is total internal reflection the mirrored
+// direction is given instead, and `reflected` is set.
+vec3 bend(vec3 I, vec3 N, float eta, out bool reflected)
+{
+    float c = dot(N, I);
+    float k = 1.0 - eta * eta * (1.0 - c * c);
+    reflected = k < 0.0;
+    vec3 T = reflected ? I - 2.0 * c * N : eta * I - (eta * c + sqrt(max(k, 0.0))) * N;
+    return normalize(T);
+}
+
+// One event of a path: the ray of direction I meets a surface of outward normals N (interpolated) and G
+// (of the triangle), inside the glass or not. Gives the new direction and keeps `inside` true to it.
+// Where the interpolated normal would send the ray through the wrong side, the triangle's is taken.
+vec3 meetSurface(vec3 I, vec3 N, vec3 G, float ior, inout bool inside, out bool reflected)
+{
+    float eta = inside ? ior : 1.0 / ior;
+    if (inside) {
+        N = -N;
+        G = -G;
+    }
+    vec3 T = bend(I, N, eta, reflected);
+    float side = dot(T, G);
+    if (dot(N, I) >= 0.0 || (reflected ? side <= 0.0 : side >= 0.0)) {
+        T = bend(I, G, eta, reflected);
+    }
+    if (!reflected) {
+        inside = !inside;
+    }
+    return T;
+}

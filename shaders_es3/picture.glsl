@@ -1,0 +1,2 @@
+#define FRUSTUM u_pictureFrustum
+#define DEPTH_RANGE u_pictureDepth

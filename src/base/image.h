@@ -1,0 +1,30 @@
+// Pictures in memory: PNG, JPEG and Radiance HDR through stb, PFM here.
+// All buffers handed out come from malloc; the caller frees them.
+#pragma once
+
+#include "vitrine.h"
+
+#define VT_MAX_IMAGE_SIDE 16384 ///< larger pictures are refused: they would not fit a texture either
+
+/// The sRGB transfer curve of IEC 61966-2-1, exact piecewise form, no clamping above 1. Values below 0
+/// follow the linear piece.
+float vtSrgbToLinear(float encoded);
+float vtLinearToSrgb(float linear);
+
+/// Decodes PNG, JPEG (sRGB, converted to linear; alpha is dropped, grey is spread) or HDR (linear as it is)
+/// to 3 floats a pixel, top row first. Numbers are made usable: NaN and negative become 0, the rest is at
+/// most 65504, the largest half float. `name` goes into the error sentence.
+/// Fails with vt_errorFormat or vt_errorMemory; then *pixels is NULL.
+vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, float** pixels, int* width,
+                             int* height, vtError* error);
+
+/// Encodes 8-bit pixels, top row first; `channels` is 3 (RGB) or 4 (RGBA).
+vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
+                     size_t* size, vtError* error);
+
+/// Encodes 3 floats a pixel, top row first, as PFM: "PF", scale -1.0 (little endian), bottom row first.
+vtResult vtEncodePfm(const float* rgb, int width, int height, uint8_t** bytes, size_t* size, vtError* error);
+
+/// Decodes a colour PFM of either byte order; *rgb is top row first, numbers untouched (NaN included).
+vtResult vtDecodePfm(const void* bytes, size_t size, const char* name, float** rgb, int* width, int* height,
+                     vtError* error);

@@ -1,0 +1,39 @@
+// Geometric optics at one surface on the CPU. The same names and numbers as shaders_es3/optics.glsl; a
+// change here is a change there (tests/unit/test_gpu.c compares them).
+#pragma once
+
+#include "base/math.h"
+
+/// Snell's law in vector form. I: unit direction of travel; N: unit normal against it (N.I < 0); eta: index
+/// of refraction behind the ray over the one ahead. Where there is total internal reflection the mirrored
+/// direction is given instead, and *reflected is set.
+static inline vtVec3 vtBend(vtVec3 I, vtVec3 N, float eta, bool* reflected)
+{
+    float c = vtDot(N, I);
+    float k = 1.0f - eta * eta * (1.0f - c * c);
+    *reflected = k < 0.0f;
+    vtVec3 T = *reflected ? vtMulAdd(I, -2.0f * c, N)
+                          : vtMulAdd(vtScale(I, eta), -(eta * c + sqrtf(fmaxf(k, 0.0f))), N);
+    return vtNormalize(T);
+}
+
+/// One event of a path: the ray of direction I meets a surface of outward normals N (interpolated) and G
+/// (of the triangle), inside the glass or not. Gives the new direction and keeps *inside true to it.
+/// Where the interpolated normal would send the ray through the wrong side, the triangle's is taken.
+static inline vtVec3 vtMeetSurface(vtVec3 I, vtVec3 N, vtVec3 G, float ior, bool* inside, bool* reflected)
+{
+    float eta = *inside ? ior : 1.0f / ior;
+    if (*inside) {
+        N = vtScale(N, -1.0f);
+        G = vtScale(G, -1.0f);
+    }
+    vtVec3 T = vtBend(I, N, eta, reflected);
+    float side = vtDot(T, G);
+    if (vtDot(N, I) >= 0.0f || (*reflected ? side <= 0.0f : side >= 0.0f)) {
+        T = vtBend(I, G, eta, reflected);
+    }
+    if (!*reflected) {
+        *inside = !*inside;
+    }
+    return T;
+}

@@ -1,0 +1,76 @@
+// Defaults and ranges of a frame: the one place that knows them.
+#include "base/error.h"
+#include "base/math.h"
+
+vtFrame vtDefaultFrame(void)
+{
+    return (vtFrame){
+        .view = {.eye = {0.36f, 0.3f, 3.05f}, .target = {0.0f, 0.0f, 0.0f}, .fovY = 45.0f},
+        .technique = vt_techniqueLayered,
+        .ior = 1.5f,
+        .layers = 4,
+        .steps = 50,
+        .refine = 8,
+        .maxEvents = 8,
+        .width = 512,
+        .height = 512,
+    };
+}
+
+static bool isFinite(vtVec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+static vtResult checkRange(const char* field, double value, double low, double high, vtError* error)
+{
+    // Written so that NaN fails.
+    if (value >= low && value <= high) {
+        return vt_ok;
+    }
+    return vtFail(error, vt_errorArgument, "%s is %g; it must be from %g to %g", field, value, low, high);
+}
+
+vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
+{
+    const vtTechnique technique = frame->technique;
+    if (technique < 0 || technique >= vt_techniqueCount) {
+        return vtFail(error, vt_errorArgument, "technique %d is not in the table", (int)technique);
+    }
+    if (frame->output < vt_outputPicture || frame->output > vt_outputLayerNormal) {
+        return vtFail(error, vt_errorArgument, "output %d is not one of vtOutput", (int)frame->output);
+    }
+    const vtTechniqueInfo* info = vtTechnique_Info(technique);
+    const struct {
+        const char* field;
+        double value, low, high;
+    } ranges[] = {
+        {"field of view", frame->view.fovY, 1, 170},
+        {"index of refraction", frame->ior, 1, 4},
+        {"layers", frame->layers, info->minLayers, info->maxLayers},
+        {"steps", frame->steps, 1, VT_MAX_STEPS},
+        {"refine", frame->refine, 0, VT_MAX_REFINE},
+        {"max-events", frame->maxEvents, 1, VT_MAX_EVENTS},
+        {"width", frame->width, 1, 16384},
+        {"height", frame->height, 1, 16384},
+        {"layer-size", frame->layerSize, frame->layerSize == 0 ? 0 : 16, 8192},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; ++i) {
+        if (checkRange(ranges[i].field, ranges[i].value, ranges[i].low, ranges[i].high, error) != vt_ok) {
+            return vt_errorArgument;
+        }
+    }
+    if (frame->output >= vt_outputLayerDepth && (frame->layer < 0 || frame->layer >= frame->layers)) {
+        return vtFail(error, vt_errorArgument, "layer is %d; with %d layers it must be from 0 to %d", frame->layer,
+                      frame->layers, frame->layers - 1);
+    }
+    if (!isFinite(frame->view.eye) || !isFinite(frame->view.target)) {
+        return vtFail(error, vt_errorArgument, "the camera's position and target must be finite numbers");
+    }
+    float distance = vtLength(vtSub(frame->view.target, frame->view.eye));
+    if (!(distance > 0.0f) || !isfinite(distance)) {
+        return vtFail(error, vt_errorArgument, "the camera stands on its target (%g, %g, %g); move one of them",
+                      (double)frame->view.eye.x, (double)frame->view.eye.y, (double)frame->view.eye.z);
+    }
+    return vtSucceed(error);
+}

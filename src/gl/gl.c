@@ -1,0 +1,81 @@
+#include "gl/gl.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+
+/// Reads "OpenGL ES 3.0 ..." (also WebGL 2 as Emscripten reports it) or "3.3 ..." of desktop GL.
+static bool isNewEnough(const char* version)
+{
+    const char* embedded = strstr(version, "OpenGL ES ");
+    int major = 0, minor = 0;
+    if (sscanf(embedded != NULL ? embedded + 10 : version, "%d.%d", &major, &minor) != 2) {
+        return false;
+    }
+    return embedded != NULL ? major >= 3 : major * 10 + minor >= 33;
+}
+
+vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
+{
+    *gl = (vtGL){0};
+#ifdef __EMSCRIPTEN__
+    (void)getProcAddress;
+#define VT_GL_LOAD(type, name) gl->name = gl##name;
+    VT_GL_FUNCTIONS(VT_GL_LOAD)
+#undef VT_GL_LOAD
+#else
+    const char* missing = NULL;
+#define VT_GL_LOAD(type, name)                                                                               \
+    gl->name = (type)getProcAddress("gl" #name);                                                             \
+    if (gl->name == NULL && missing == NULL) {                                                               \
+        missing = "gl" #name;                                                                                \
+    }
+    VT_GL_FUNCTIONS(VT_GL_LOAD)
+#undef VT_GL_LOAD
+    if (missing != NULL) {
+        return vtFail(error, vt_errorContext,
+                      "GL: the context has no %s; OpenGL ES 3.0, WebGL 2 or desktop GL 3.3 is needed", missing);
+    }
+#endif
+    const char* version = (const char*)gl->GetString(GL_VERSION);
+    if (version == NULL) {
+        return vtFail(error, vt_errorContext, "GL: no context is current in this thread; make one current first");
+    }
+    if (!isNewEnough(version)) {
+        return vtFail(error, vt_errorContext,
+                      "GL: the context is '%s'; OpenGL ES 3.0, WebGL 2 or desktop GL 3.3 is needed", version);
+    }
+    return vtSucceed(error);
+}
+
+static const char* errorName(GLenum code)
+{
+    switch (code) {
+    case GL_INVALID_ENUM:
+        return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+        return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+        return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+        return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+        return "GL_OUT_OF_MEMORY";
+    default:
+        return "an unknown error";
+    }
+}
+
+vtResult vtCheckGL(const vtGL* gl, const char* doing, vtError* error)
+{
+    GLenum first = gl->GetError();
+    // A lost context may answer with errors for ever: ask a few times only.
+    for (int i = 0; i < 8 && gl->GetError() != GL_NO_ERROR; ++i) {
+    }
+    if (first == GL_NO_ERROR) {
+        return vtSucceed(error);
+    }
+    vtResult result = first == GL_OUT_OF_MEMORY ? vt_errorMemory : vt_errorContext;
+    return vtFail(error, result, "GL: %s while %s", errorName(first), doing);
+}

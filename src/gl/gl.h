@@ -1,0 +1,86 @@
+// The GL functions the core calls, loaded once per renderer. A table instead of linked prototypes lets
+// one program hold several contexts from several libraries (OSMesa and EGL export the same names).
+#pragma once
+
+#if defined(__APPLE__)
+#error "Vitrine needs the OpenGL ES 3.0 headers of Khronos (GLES3/gl3.h)"
+#endif
+#include <GLES3/gl3.h>
+
+#include "vitrine.h"
+
+// X(loader's pointer type, name without gl)
+#define VT_GL_FUNCTIONS(X)                                                                                   \
+    X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                                 \
+    X(PFNGLATTACHSHADERPROC, AttachShader)                                                                   \
+    X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                       \
+    X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                               \
+    X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                             \
+    X(PFNGLBINDTEXTUREPROC, BindTexture)                                                                     \
+    X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                             \
+    X(PFNGLBUFFERDATAPROC, BufferData)                                                                       \
+    X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                                 \
+    X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                               \
+    X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                                                                 \
+    X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                                                               \
+    X(PFNGLCOLORMASKPROC, ColorMask)                                                                         \
+    X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                 \
+    X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                 \
+    X(PFNGLCREATESHADERPROC, CreateShader)                                                                   \
+    X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                 \
+    X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                       \
+    X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                 \
+    X(PFNGLDELETESHADERPROC, DeleteShader)                                                                   \
+    X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                               \
+    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                                       \
+    X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                                         \
+    X(PFNGLDEPTHMASKPROC, DepthMask)                                                                         \
+    X(PFNGLDISABLEPROC, Disable)                                                                             \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                       \
+    X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                                                                     \
+    X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                   \
+    X(PFNGLENABLEPROC, Enable)                                                                               \
+    X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                             \
+    X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                   \
+    X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, FramebufferTextureLayer)                                             \
+    X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                       \
+    X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                             \
+    X(PFNGLGENTEXTURESPROC, GenTextures)                                                                     \
+    X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                             \
+    X(PFNGLGETERRORPROC, GetError)                                                                           \
+    X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                     \
+    X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                         \
+    X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                   \
+    X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                           \
+    X(PFNGLGETSHADERIVPROC, GetShaderiv)                                                                     \
+    X(PFNGLGETSTRINGPROC, GetString)                                                                         \
+    X(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex)                                                   \
+    X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                       \
+    X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                     \
+    X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                     \
+    X(PFNGLREADBUFFERPROC, ReadBuffer)                                                                       \
+    X(PFNGLREADPIXELSPROC, ReadPixels)                                                                       \
+    X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                   \
+    X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                       \
+    X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                                 \
+    X(PFNGLTEXSTORAGE2DPROC, TexStorage2D)                                                                   \
+    X(PFNGLTEXSTORAGE3DPROC, TexStorage3D)                                                                   \
+    X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                                                 \
+    X(PFNGLUNIFORM1IPROC, Uniform1i)                                                                         \
+    X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)                                                     \
+    X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                       \
+    X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                     \
+    X(PFNGLVIEWPORTPROC, Viewport)
+
+typedef struct vtGL {
+#define VT_GL_MEMBER(type, name) type name;
+    VT_GL_FUNCTIONS(VT_GL_MEMBER)
+#undef VT_GL_MEMBER
+} vtGL;
+
+/// Fills the table. Fails with vt_errorContext, naming the first function that is missing or saying that
+/// the context is too old.
+vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error);
+
+/// vt_ok where GL reports no error since the last call; `doing` says what was being done.
+vtResult vtCheckGL(const vtGL* gl, const char* doing, vtError* error);

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "gl/gl.h"
+
+/// A mesh on the GPU: indexed triangles, position at attribute 0, normal at 1.
+typedef struct vtMeshBuffer {
+    GLuint vertexArray, vertices, indices;
+    GLsizei indexCount;
+    size_t bytes;
+} vtMeshBuffer;
+
+vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtError* error);
+void vtMeshBuffer_Draw(const vtMeshBuffer* buffer, const vtGL* gl);
+void vtMeshBuffer_Destroy(vtMeshBuffer* buffer, const vtGL* gl);

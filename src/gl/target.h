@@ -1,0 +1,38 @@
+// Textures and framebuffers: made, sized, freed. Everything is nearest-filtered unless it is a picture.
+#pragma once
+
+#include "gl/gl.h"
+
+/// A 2-D texture (layers = 0) or 2-D array (layers > 0) of immutable size.
+typedef struct vtTexture {
+    GLuint name;
+    GLenum target;
+    GLenum format;
+    int width, height, layers;
+} vtTexture;
+
+/// Makes the texture of that format and size, dropping an older one of another; does nothing where the
+/// size is stable. layers = 0: GL_TEXTURE_2D, else GL_TEXTURE_2D_ARRAY. True where it was made anew.
+bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int width, int height, int layers);
+void vtTexture_Destroy(vtTexture* texture, const vtGL* gl);
+size_t vtTexture_Bytes(const vtTexture* texture);
+
+/// Binds to a texture unit, for reading.
+void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, int unit);
+
+#define VT_MAX_ATTACHMENTS 4
+
+/// A texture, or one layer of an array, to draw into.
+typedef struct vtAttachment {
+    const vtTexture* texture;
+    int layer;
+} vtAttachment;
+
+/// (Re)makes a framebuffer of up to VT_MAX_ATTACHMENTS colours and an optional depth texture, checks that
+/// it is complete and leaves it bound.
+vtResult vtMakeFramebuffer(const vtGL* gl, const char* name, const vtAttachment* colors, int colorCount,
+                           const vtTexture* depth, GLuint* framebuffer, vtError* error);
+void vtDestroyFramebuffers(const vtGL* gl, GLuint* framebuffers, int count);
+
+/// Binds framebuffer and viewport.
+void vtBindFramebuffer(const vtGL* gl, GLuint framebuffer, int width, int height);

@@ -1,0 +1,25 @@
+// The one uniform block, the same in C and GLSL (shaders_es3/frame.glsl): everything a frame's passes
+// have to know. Only 16-byte members, so that std140 and C agree without padding.
+#pragma once
+
+#include <assert.h>
+#include <stdint.h>
+
+#define VT_FRAME_BINDING 0
+
+typedef struct vtFrameUniforms {
+    float worldToCamera[4][4]; ///< column-major; (right, up, depth) coordinates of a world point
+    float eye[4];
+    float pictureFrustum[4]; ///< left, bottom, right, top: tangents
+    float layerFrustum[4];
+    float pictureDepth[4]; ///< near, far, 1 / (far - near), 0
+    float layerDepth[4];
+    float boundsMin[4]; ///< the object's box, world
+    float boundsMax[4];
+    float optics[4];   ///< index of refraction, 0, 0, 0
+    int32_t search[4]; ///< layers, linear steps, binary steps, events
+    int32_t size[4];   ///< picture width, height, layer width, height
+    int32_t output[4]; ///< vtOutput, layer, vtEnvironmentKind, 0
+} vtFrameUniforms;
+
+static_assert(sizeof(vtFrameUniforms) == 15 * 16, "vtFrameUniforms must mirror the std140 block");

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "gl/program.h"
+#include "gl/target.h"
+
+/// Layer depths merged (Wang & Chi 2014, section 3.5.2) and gathered four to a texel, so that a search
+/// reads four layers at once.
+typedef struct vtMergePass {
+    GLuint program;
+    GLint groupLocation;
+    GLuint framebuffers[VT_MAX_LAYER_GROUPS];
+    vtTexture depths; ///< RGBA16UI array, four layers a texel
+} vtMergePass;
+
+vtResult vtMergePass_Create(vtMergePass* pass, const vtGL* gl, vtError* error);
+vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers, vtError* error);
+void vtMergePass_Draw(const vtMergePass* pass, const vtGL* gl, const vtTexture* layerDepths);
+void vtMergePass_Destroy(vtMergePass* pass, const vtGL* gl);

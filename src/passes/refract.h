@@ -1,0 +1,26 @@
+#pragma once
+
+#include "gl/program.h"
+#include "gl/target.h"
+#include "technique.h"
+
+/// Follows every pixel's path through the glass with one technique of the ladder.
+typedef struct vtRefractPass {
+    GLuint programs[vt_techniqueCount]; ///< compiled when first used
+    GLuint framebuffer;
+    vtTexture paths; ///< RGBA32UI: the bits of the last direction (three floats), state (VT_PATH_...)
+} vtRefractPass;
+
+/// What a technique may read.
+typedef struct vtRefractInputs {
+    const vtTexture* surfaceDepth;
+    const vtTexture* surfaceNormals;
+    const vtTexture* mergedDepths;
+    const vtTexture* layerNormals;
+} vtRefractInputs;
+
+vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error);
+vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height, vtError* error);
+void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
+                        const vtRefractInputs* inputs);
+void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl);

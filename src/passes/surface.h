@@ -1,0 +1,19 @@
+#pragma once
+
+#include "gl/mesh_buffer.h"
+#include "gl/program.h"
+#include "gl/target.h"
+
+/// The surface each pixel sees first, at the picture's resolution: depth and normals.
+typedef struct vtSurfacePass {
+    GLuint program;
+    GLuint framebuffer;
+    vtTexture depth;   ///< DEPTH_COMPONENT32F, 1 where there is nothing
+    vtTexture normals; ///< RG32UI: octahedral normals, interpolated and of the triangle
+} vtSurfacePass;
+
+vtResult vtSurfacePass_Create(vtSurfacePass* pass, const vtGL* gl, vtError* error);
+vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, vtError* error);
+void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtMeshBuffer* mesh);
+void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl);
+size_t vtSurfacePass_Bytes(const vtSurfacePass* pass);

@@ -1,0 +1,336 @@
+// The whole of a frame, in order: surface, peel, merge, refract, present. Each pass reads the targets of
+// those before it and writes its own; offscreen, window and canvas differ only in the framebuffer that
+// present draws to.
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "gl/uniforms.h"
+#include "passes/merge.h"
+#include "passes/peel.h"
+#include "passes/present.h"
+#include "passes/refract.h"
+#include "passes/surface.h"
+#include "scene/camera.h"
+
+struct vtRenderer {
+    vtGL gl;
+    GLuint uniformBuffer;
+    GLuint emptyVertexArray; // for passes that draw the viewport's triangle
+    vtSurfacePass surface;
+    vtPeelPass peel;
+    vtMergePass merge;
+    vtRefractPass refract;
+    vtPresentPass present;
+    // The scene.
+    vtMeshBuffer mesh;
+    vtVec3 boundsMin, boundsMax;
+    vtEnvironmentKind environment;
+    // vtRenderer_DrawImage draws into this.
+    GLuint imageFramebuffer;
+    vtTexture image;
+};
+
+static vtResult createPasses(vtRenderer* renderer, vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    vtResult result = vtSurfacePass_Create(&renderer->surface, gl, error);
+    if (result == vt_ok) {
+        result = vtPeelPass_Create(&renderer->peel, gl, error);
+    }
+    if (result == vt_ok) {
+        result = vtMergePass_Create(&renderer->merge, gl, error);
+    }
+    if (result == vt_ok) {
+        result = vtPresentPass_Create(&renderer->present, gl, error);
+    }
+    return result;
+}
+
+vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** out, vtError* error)
+{
+    *out = NULL;
+    vtRenderer* renderer = calloc(1, sizeof *renderer);
+    if (renderer == NULL) {
+        return vtFail(error, vt_errorMemory, "renderer: out of memory");
+    }
+    vtResult result = vtLoadGL(def->getProcAddress, &renderer->gl, error);
+    if (result != vt_ok) {
+        free(renderer);
+        return result;
+    }
+    const vtGL* gl = &renderer->gl;
+    gl->GenVertexArrays(1, &renderer->emptyVertexArray);
+    gl->GenBuffers(1, &renderer->uniformBuffer);
+    gl->BindBuffer(GL_UNIFORM_BUFFER, renderer->uniformBuffer);
+    gl->BufferData(GL_UNIFORM_BUFFER, sizeof(vtFrameUniforms), NULL, GL_DYNAMIC_DRAW);
+
+    result = createPasses(renderer, error);
+    if (result == vt_ok) {
+        result = vtCheckGL(gl, "creating the renderer", error);
+    }
+    if (result != vt_ok) {
+        vtDestroyRenderer(renderer);
+        return result;
+    }
+    *out = renderer;
+    return vtSucceed(error);
+}
+
+void vtDestroyRenderer(vtRenderer* renderer)
+{
+    if (renderer == NULL) {
+        return;
+    }
+    const vtGL* gl = &renderer->gl;
+    vtSurfacePass_Destroy(&renderer->surface, gl);
+    vtPeelPass_Destroy(&renderer->peel, gl);
+    vtMergePass_Destroy(&renderer->merge, gl);
+    vtRefractPass_Destroy(&renderer->refract, gl);
+    vtPresentPass_Destroy(&renderer->present, gl);
+    vtMeshBuffer_Destroy(&renderer->mesh, gl);
+    vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
+    vtTexture_Destroy(&renderer->image, gl);
+    gl->DeleteBuffers(1, &renderer->uniformBuffer);
+    gl->DeleteVertexArrays(1, &renderer->emptyVertexArray);
+    free(renderer);
+}
+
+vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error)
+{
+    vtMeshBuffer fresh;
+    vtResult result = vtMeshBuffer_Create(&fresh, &renderer->gl, mesh, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    vtMeshBuffer_Destroy(&renderer->mesh, &renderer->gl);
+    renderer->mesh = fresh;
+    renderer->boundsMin = mesh->boundsMin;
+    renderer->boundsMax = mesh->boundsMax;
+    return vt_ok;
+}
+
+vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error)
+{
+    vtResult result = vtPresentPass_SetEnvironment(&renderer->present, &renderer->gl, environment, error);
+    if (result == vt_ok) {
+        renderer->environment = environment->kind;
+    }
+    return result;
+}
+
+/// Layer textures as long on their longer side as asked, in the shape of their frustum.
+static void chooseLayerSize(const vtFrame* frame, const vtFrustum* frustum, int* width, int* height)
+{
+    int side = frame->layerSize > 0 ? frame->layerSize
+               : frame->width > frame->height ? frame->width
+                                              : frame->height;
+    side = side < 16 ? 16 : side > 8192 ? 8192 : side;
+    float across = frustum->right - frustum->left, down = frustum->top - frustum->bottom;
+    float longer = fmaxf(across, down);
+    // Rounded up to sixteens: a turning object then rarely makes the textures anew.
+    *width = ((int)ceilf((float)side * across / longer) + 15) / 16 * 16;
+    *height = ((int)ceilf((float)side * down / longer) + 15) / 16 * 16;
+}
+
+static void setVec4(float* out, float x, float y, float z, float w)
+{
+    out[0] = x;
+    out[1] = y;
+    out[2] = z;
+    out[3] = w;
+}
+
+static void setFrustum(float* tangents, float* depth, const vtFrustum* f)
+{
+    setVec4(tangents, f->left, f->bottom, f->right, f->top);
+    setVec4(depth, f->near, f->far, 1.0f / (f->far - f->near), 0.0f);
+}
+
+static void setCamera(vtFrameUniforms* uniforms, const vtView* view)
+{
+    vtCameraFrame camera = vtMakeCameraFrame(view);
+    const vtVec3 rows[3] = {camera.right, camera.up, camera.forward};
+    for (int row = 0; row < 3; ++row) {
+        uniforms->worldToCamera[0][row] = rows[row].x;
+        uniforms->worldToCamera[1][row] = rows[row].y;
+        uniforms->worldToCamera[2][row] = rows[row].z;
+        uniforms->worldToCamera[3][row] = -vtDot(rows[row], camera.eye);
+    }
+    uniforms->worldToCamera[3][3] = 1.0f;
+    setVec4(uniforms->eye, camera.eye.x, camera.eye.y, camera.eye.z, 1.0f);
+}
+
+/// Works out the frame's numbers, sizes every target and uploads the uniform block.
+static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtVec3 low = renderer->boundsMin, high = renderer->boundsMax;
+    float aspect = (float)frame->width / (float)frame->height;
+    vtFrustum picture = vtMakePictureFrustum(&frame->view, aspect, low, high);
+    vtFrustum layers = vtMakeLayerFrustum(&frame->view, low, high);
+    int layerWidth, layerHeight;
+    chooseLayerSize(frame, &layers, &layerWidth, &layerHeight);
+
+    vtResult result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height, error);
+    if (result == vt_ok) {
+        result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, frame->layers, error);
+    }
+    if (result == vt_ok) {
+        result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, frame->layers, error);
+    }
+    if (result == vt_ok) {
+        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height, error);
+    }
+    if (result == vt_ok) {
+        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, error);
+    }
+    if (result != vt_ok) {
+        return result;
+    }
+
+    vtFrameUniforms uniforms = {
+        .optics = {frame->ior},
+        .search = {frame->layers, frame->steps, frame->refine, frame->maxEvents},
+        .size = {frame->width, frame->height, layerWidth, layerHeight},
+        .output = {frame->output, frame->layer, renderer->environment},
+    };
+    setCamera(&uniforms, &frame->view);
+    setFrustum(uniforms.pictureFrustum, uniforms.pictureDepth, &picture);
+    setFrustum(uniforms.layerFrustum, uniforms.layerDepth, &layers);
+    setVec4(uniforms.boundsMin, low.x, low.y, low.z, 0.0f);
+    setVec4(uniforms.boundsMax, high.x, high.y, high.z, 0.0f);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, VT_FRAME_BINDING, renderer->uniformBuffer);
+    gl->BufferSubData(GL_UNIFORM_BUFFER, 0, sizeof uniforms, &uniforms);
+    return vtCheckGL(gl, "preparing the frame", error);
+}
+
+static void resetState(const vtGL* gl)
+{
+    gl->Disable(GL_BLEND);
+    gl->Disable(GL_CULL_FACE);
+    gl->Disable(GL_SCISSOR_TEST);
+    gl->Disable(GL_STENCIL_TEST);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Disable(GL_DITHER);
+    gl->DepthFunc(GL_LESS);
+    gl->DepthMask(GL_TRUE);
+    gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    assert(renderer->mesh.indexCount > 0 && "set a mesh before drawing");
+    vtResult result = vtValidateFrame(frame, error);
+    if (result == vt_ok) {
+        result = prepareFrame(renderer, frame, error);
+    }
+    if (result != vt_ok) {
+        return result;
+    }
+
+    const vtGL* gl = &renderer->gl;
+    resetState(gl);
+    vtSurfacePass_Draw(&renderer->surface, gl, &renderer->mesh);
+    vtPeelPass_Draw(&renderer->peel, gl, &renderer->mesh);
+
+    gl->BindVertexArray(renderer->emptyVertexArray);
+    vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
+    vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
+                       &(vtRefractInputs){.surfaceDepth = &renderer->surface.depth,
+                                          .surfaceNormals = &renderer->surface.normals,
+                                          .mergedDepths = &renderer->merge.depths,
+                                          .layerNormals = &renderer->peel.normals});
+    vtPresentPass_Draw(&renderer->present, gl,
+                       &(vtPresentInputs){.paths = &renderer->refract.paths,
+                                          .layerDepths = &renderer->peel.depths,
+                                          .layerNormals = &renderer->peel.normals},
+                       frame->framebuffer, frame->width, frame->height);
+    gl->BindVertexArray(0);
+    return vtCheckGL(gl, "drawing the frame", error);
+}
+
+vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    vtResult result = vtValidateFrame(frame, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    if (vtTexture_Resize(&renderer->image, gl, GL_RGBA8, frame->width, frame->height, 0)) {
+        vtAttachment color = {&renderer->image, 0};
+        result = vtMakeFramebuffer(gl, "image", &color, 1, NULL, &renderer->imageFramebuffer, error);
+        if (result != vt_ok) {
+            return result;
+        }
+    }
+    vtFrame offscreen = *frame;
+    offscreen.framebuffer = renderer->imageFramebuffer;
+    result = vtRenderer_Draw(renderer, &offscreen, error);
+    if (result != vt_ok) {
+        return result;
+    }
+
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl->ReadPixels(0, 0, frame->width, frame->height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    // GL's first row is the bottom one.
+    size_t rowBytes = 4 * (size_t)frame->width;
+    for (int top = 0, bottom = frame->height - 1; top < bottom; ++top, --bottom) {
+        uint8_t* a = rgba + rowBytes * (size_t)top;
+        uint8_t* b = rgba + rowBytes * (size_t)bottom;
+        for (size_t i = 0; i < rowBytes; ++i) {
+            uint8_t swapped = a[i];
+            a[i] = b[i];
+            b[i] = swapped;
+        }
+    }
+    return vtCheckGL(gl, "reading the picture back", error);
+}
+
+vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    const int width = renderer->refract.paths.width, height = renderer->refract.paths.height;
+    assert(width > 0 && "draw a frame before reading its directions");
+    uint32_t* paths = malloc(16 * (size_t)width * (size_t)height);
+    if (paths == NULL) {
+        return vtFail(error, vt_errorMemory, "directions: out of memory for %d x %d pixels", width, height);
+    }
+    gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->refract.framebuffer);
+    gl->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, paths);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+
+    for (int row = 0; row < height; ++row) {
+        const uint32_t* from = paths + 4 * (size_t)width * (size_t)(height - 1 - row);
+        float* to = directions + 3 * (size_t)width * (size_t)row;
+        for (int column = 0; column < width; ++column, from += 4, to += 3) {
+            int state = (int)(from[3] & 255u);
+            if (state == VT_PATH_EXITED) {
+                memcpy(to, from, 3 * sizeof(float));
+            } else {
+                to[0] = to[1] = to[2] = state == VT_PATH_LOST ? 2.0f : 0.0f;
+            }
+        }
+    }
+    free(paths);
+    return vtCheckGL(gl, "reading directions back", error);
+}
+
+vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
+{
+    const vtGL* gl = &renderer->gl;
+    return (vtRendererInfo){
+        .vendor = (const char*)gl->GetString(GL_VENDOR),
+        .device = (const char*)gl->GetString(GL_RENDERER),
+        .version = (const char*)gl->GetString(GL_VERSION),
+        .textureBytes = vtSurfacePass_Bytes(&renderer->surface) + vtPeelPass_Bytes(&renderer->peel) +
+                        vtTexture_Bytes(&renderer->merge.depths) + vtTexture_Bytes(&renderer->refract.paths) +
+                        vtTexture_Bytes(&renderer->present.environment) + vtTexture_Bytes(&renderer->image),
+        .meshBytes = renderer->mesh.bytes,
+        .layerWidth = renderer->peel.depths.width,
+        .layerHeight = renderer->peel.depths.height,
+    };
+}

@@ -1,0 +1,125 @@
+#include "scene/camera.h"
+
+#include <float.h>
+
+#include "base/math.h"
+
+// How far the default view looks down, and round to the right; that of the truth images.
+static const vtVec3 defaultDirection = {0.1167f, 0.0972f, 0.9884f};
+
+vtCameraFrame vtMakeCameraFrame(const vtView* view)
+{
+    vtVec3 forward = vtNormalize(vtSub(view->target, view->eye));
+    vtVec3 worldUp = {0.0f, 1.0f, 0.0f};
+    // Looking straight up or down leaves the roll open: let -Z be up then, as on a map.
+    if (fabsf(forward.y) > 0.99999f) {
+        worldUp = (vtVec3){0.0f, 0.0f, forward.y < 0.0f ? -1.0f : 1.0f};
+    }
+    vtVec3 right = vtNormalize(vtCross(forward, worldUp));
+    return (vtCameraFrame){view->eye, right, vtCross(right, forward), forward};
+}
+
+static vtVec3 boxCorner(vtVec3 low, vtVec3 high, int corner)
+{
+    return (vtVec3){corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};
+}
+
+static vtVec3 toCamera(const vtCameraFrame* camera, vtVec3 point)
+{
+    vtVec3 offset = vtSub(point, camera->eye);
+    return (vtVec3){vtDot(offset, camera->right), vtDot(offset, camera->up), vtDot(offset, camera->forward)};
+}
+
+static void fitDepthRange(const vtCameraFrame* camera, vtVec3 low, vtVec3 high, vtFrustum* frustum)
+{
+    float nearest = FLT_MAX, farthest = -FLT_MAX;
+    for (int corner = 0; corner < 8; ++corner) {
+        float depth = toCamera(camera, boxCorner(low, high, corner)).z;
+        nearest = fminf(nearest, depth);
+        farthest = fmaxf(farthest, depth);
+    }
+    // One part in a thousand of the extent keeps the outermost surfaces inside the range, and the near
+    // plane in front of an eye that stands inside the box.
+    float extent = fmaxf(vtLength(vtSub(high, low)), FLT_MIN * 1e6f);
+    float margin = 1e-3f * extent;
+    frustum->near = fmaxf(nearest - margin, margin);
+    frustum->far = fmaxf(farthest + margin, frustum->near + margin);
+}
+
+vtFrustum vtMakePictureFrustum(const vtView* view, float aspect, vtVec3 boundsMin, vtVec3 boundsMax)
+{
+    vtCameraFrame camera = vtMakeCameraFrame(view);
+    float tangent = tanf(view->fovY * VT_PI / 360.0f);
+    vtFrustum frustum = {-tangent * aspect, -tangent, tangent * aspect, tangent, 0.0f, 0.0f};
+    fitDepthRange(&camera, boundsMin, boundsMax, &frustum);
+    return frustum;
+}
+
+vtFrustum vtMakeLayerFrustum(const vtView* view, vtVec3 boundsMin, vtVec3 boundsMax)
+{
+    vtCameraFrame camera = vtMakeCameraFrame(view);
+    vtFrustum frustum = {FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX, 0.0f, 0.0f};
+    fitDepthRange(&camera, boundsMin, boundsMax, &frustum);
+
+    for (int corner = 0; corner < 8; ++corner) {
+        vtVec3 point = toCamera(&camera, boxCorner(boundsMin, boundsMax, corner));
+        // A corner at or behind the near plane projects nowhere useful: it opens that side fully.
+        float depth = fmaxf(point.z, frustum.near);
+        float x = point.x / depth, y = point.y / depth;
+        frustum.left = fminf(frustum.left, x);
+        frustum.right = fmaxf(frustum.right, x);
+        frustum.bottom = fminf(frustum.bottom, y);
+        frustum.top = fmaxf(frustum.top, y);
+    }
+
+    // A border of 1 % leaves whole texels of background around the silhouette.
+    float borderX = 0.01f * (frustum.right - frustum.left) + 1e-6f;
+    float borderY = 0.01f * (frustum.top - frustum.bottom) + 1e-6f;
+    frustum.left = vtClamp(frustum.left - borderX, -VT_MAX_LAYER_TANGENT, VT_MAX_LAYER_TANGENT - borderX);
+    frustum.right = vtClamp(frustum.right + borderX, frustum.left + borderX, VT_MAX_LAYER_TANGENT);
+    frustum.bottom = vtClamp(frustum.bottom - borderY, -VT_MAX_LAYER_TANGENT, VT_MAX_LAYER_TANGENT - borderY);
+    frustum.top = vtClamp(frustum.top + borderY, frustum.bottom + borderY, VT_MAX_LAYER_TANGENT);
+    return frustum;
+}
+
+vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect)
+{
+    vtVec3 centre = vtScale(vtAdd(mesh->boundsMin, mesh->boundsMax), 0.5f);
+    vtView view = {centre, centre, fovY};
+
+    // The distance at which every corner of the box lies inside 95 % of the frame.
+    vtVec3 direction = vtNormalize(defaultDirection);
+    view.eye = vtAdd(centre, direction);
+    vtCameraFrame camera = vtMakeCameraFrame(&view);
+    float tangentY = 0.95f * tanf(view.fovY * VT_PI / 360.0f);
+    float tangentX = tangentY * aspect;
+    float distance = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        vtVec3 offset = vtSub(boxCorner(mesh->boundsMin, mesh->boundsMax, corner), centre);
+        float x = fabsf(vtDot(offset, camera.right)), y = fabsf(vtDot(offset, camera.up));
+        distance = fmaxf(distance, fmaxf(x / tangentX, y / tangentY) + vtDot(offset, direction));
+    }
+    view.eye = vtMulAdd(centre, distance > 0.0f ? distance : 1.0f, direction);
+    return view;
+}
+
+vtView vtView_Orbit(vtView view, float yaw, float pitch)
+{
+    vtVec3 offset = vtSub(view.eye, view.target);
+    float radius = vtLength(offset);
+    if (radius <= 0.0f) {
+        return view;
+    }
+    const float steepest = 0.49f * VT_PI;
+    float azimuth = atan2f(offset.x, offset.z) + yaw;
+    float elevation = vtClamp(asinf(vtClamp(offset.y / radius, -1.0f, 1.0f)) + pitch, -steepest, steepest);
+    vtVec3 direction = {cosf(elevation) * sinf(azimuth), sinf(elevation), cosf(elevation) * cosf(azimuth)};
+    view.eye = vtMulAdd(view.target, radius, direction);
+    return view;
+}
+
+vtView vtView_Zoom(vtView view, float factor)
+{
+    view.eye = vtMulAdd(view.target, factor, vtSub(view.eye, view.target));
+    return view;
+}

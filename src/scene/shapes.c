@@ -1,0 +1,156 @@
+// The table of built-in shapes, and the few operations they are made with.
+#include "scene/shapes.h"
+
+#include "base/error.h"
+#include "base/math.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct ShapeRow {
+    const char* name;
+    const char* summary;
+    bool (*build)(vtShapeData* shape);
+} ShapeRow;
+
+static const ShapeRow shapeTable[] = {
+    {"sphere", "solid ball of radius 1", vtBuildSphere},
+    {"torus", "solid ring, radii 1 and 0.4, about the vertical axis", vtBuildTorus},
+    {"knot", "trefoil knot of a round rod, the (2, 3) torus knot", vtBuildKnot},
+    {"goblet", "hollow wine glass with stem and foot", vtBuildGoblet},
+    {"bottle", "hollow wine bottle with lip and punt", vtBuildBottle},
+    {"diamond", "round brilliant cut with 57 facets and a faceted girdle", vtBuildDiamond},
+};
+enum { shapeCount = sizeof shapeTable / sizeof shapeTable[0] };
+
+const char* vtShapeName(int index)
+{
+    return index >= 0 && index < shapeCount ? shapeTable[index].name : NULL;
+}
+
+const char* vtShapeSummary(int index)
+{
+    return index >= 0 && index < shapeCount ? shapeTable[index].summary : NULL;
+}
+
+static const ShapeRow* findShape(const char* name)
+{
+    for (int i = 0; i < shapeCount; ++i) {
+        if (strcmp(shapeTable[i].name, name) == 0) {
+            return &shapeTable[i];
+        }
+    }
+    return NULL;
+}
+
+static vtResult failUnknown(const char* name, vtError* error)
+{
+    char names[256] = "";
+    for (int i = 0; i < shapeCount; ++i) {
+        const char* separator = i == 0 ? "" : i < shapeCount - 1 ? ", " : " and ";
+        size_t used = strlen(names);
+        assert(used + strlen(separator) + strlen(shapeTable[i].name) < sizeof names);
+        strcpy(names + used, separator);
+        strcat(names, shapeTable[i].name);
+    }
+    return vtFail(error, vt_errorArgument, "shape '%.100s' is unknown; the shapes are %s", name, names);
+}
+
+vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error)
+{
+    assert(name != NULL && mesh != NULL);
+    *mesh = (vtMesh){0};
+    const ShapeRow* row = findShape(name);
+    if (row == NULL) {
+        return failUnknown(name, error);
+    }
+    vtShapeData shape = {0};
+    vtResult result;
+    if (row->build(&shape)) {
+        vtMeshDef def = {
+            .positions = shape.positions,
+            .normals = shape.normals,
+            .indices = shape.indices,
+            .vertexCount = shape.vertexCount,
+            .indexCount = shape.indexCount,
+        };
+        result = vtCreateMesh(&def, name, mesh, error);
+    } else {
+        result = vtFail(error, vt_errorMemory, "shape '%s': out of memory; close other programs", name);
+    }
+    vtShape_Free(&shape);
+    return result;
+}
+
+// -------------------------------------------------------------------------------------------- operations
+
+bool vtShape_Reserve(vtShapeData* shape, uint32_t vertexRoom, uint32_t triangleRoom)
+{
+    assert(shape->positions == NULL);
+    shape->positions = calloc(vertexRoom, 3 * sizeof(float));
+    shape->normals = calloc(vertexRoom, 3 * sizeof(float));
+    shape->indices = calloc(triangleRoom, 3 * sizeof(uint32_t));
+    shape->vertexRoom = vertexRoom;
+    shape->indexRoom = 3 * triangleRoom;
+    return shape->positions != NULL && shape->normals != NULL && shape->indices != NULL;
+}
+
+void vtShape_Free(vtShapeData* shape)
+{
+    free(shape->positions);
+    free(shape->normals);
+    free(shape->indices);
+    *shape = (vtShapeData){0};
+}
+
+static void writeVector(float* array, uint32_t element, vtVec3 v)
+{
+    array[3 * element] = v.x;
+    array[3 * element + 1] = v.y;
+    array[3 * element + 2] = v.z;
+}
+
+uint32_t vtShape_AddVertex(vtShapeData* shape, vtVec3 position, vtVec3 normal)
+{
+    assert(shape->vertexCount < shape->vertexRoom);
+    writeVector(shape->positions, shape->vertexCount, position);
+    writeVector(shape->normals, shape->vertexCount, normal);
+    return shape->vertexCount++;
+}
+
+void vtShape_AddTriangle(vtShapeData* shape, uint32_t a, uint32_t b, uint32_t c)
+{
+    assert(shape->indexCount + 3 <= shape->indexRoom);
+    shape->indices[shape->indexCount++] = a;
+    shape->indices[shape->indexCount++] = b;
+    shape->indices[shape->indexCount++] = c;
+}
+
+void vtShape_AddBand(vtShapeData* shape, uint32_t firstRing, uint32_t secondRing, uint32_t columns)
+{
+    for (uint32_t column = 0; column < columns; ++column) {
+        uint32_t next = (column + 1) % columns;
+        vtShape_AddTriangle(shape, firstRing + column, secondRing + column, firstRing + next);
+        vtShape_AddTriangle(shape, secondRing + column, secondRing + next, firstRing + next);
+    }
+}
+
+void vtShape_Fit(vtShapeData* shape, float extent)
+{
+    assert(shape->vertexCount > 0);
+    vtVec3 low = vtMakeVec3(shape->positions);
+    vtVec3 high = low;
+    for (uint32_t i = 1; i < shape->vertexCount; ++i) {
+        vtVec3 p = vtMakeVec3(shape->positions + 3 * i);
+        low = (vtVec3){fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z)};
+        high = (vtVec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
+    }
+    vtVec3 size = vtSub(high, low);
+    vtVec3 centre = vtScale(vtAdd(low, high), 0.5f);
+    float scale = extent / fmaxf(size.x, fmaxf(size.y, size.z));
+    for (uint32_t i = 0; i < shape->vertexCount; ++i) {
+        vtVec3 p = vtScale(vtSub(vtMakeVec3(shape->positions + 3 * i), centre), scale);
+        writeVector(shape->positions, i, p);
+    }
+}

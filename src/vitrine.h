@@ -1,0 +1,263 @@
+/// Vitrine: real-time glass through OpenGL ES 3.0.
+///
+/// This header alone is enough to embed the renderer. The order of use:
+///
+///   1. make an OpenGL ES 3.0, WebGL 2 or desktop GL 3.3+ context current (the caller's work);
+///   2. vtCreateRenderer;
+///   3. a mesh (vtCreateShape, vtLoadModel or vtCreateMesh)     -> vtRenderer_SetMesh;
+///   4. an environment (vtCreateEnvironment, vtLoadEnvironment) -> vtRenderer_SetEnvironment;
+///   5. vtFrame frame = vtDefaultFrame(); frame.view = ...;       vtRenderer_Draw;
+///   6. vtDestroyRenderer, with the same context current.
+///
+/// Conventions: right-handed world, +Y up, lengths in the model's own unit. Structs are plain data; a
+/// struct from vtDefault... holds the documented defaults. A function that can fail for a reason outside
+/// the program (data, files, GL) returns a vtResult and writes one sentence into the vtError; misuse of
+/// the API itself is caught by assert. Nothing here keeps a pointer of the caller's after it returns.
+/// There is no global state: many renderers can live side by side, each used with its own context.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "../shaders_es3/constants.h" // VT_MAX_LAYERS and the other limits, shared with the shaders
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define VT_VERSION "0.1.0"
+
+// ---------------------------------------------------------------------------------------------- errors
+
+typedef enum vtResult {
+    vt_ok = 0,
+    vt_errorArgument, ///< a value is outside its documented range
+    vt_errorFile,     ///< a file cannot be read or written
+    vt_errorFormat,   ///< a file is not what it should be
+    vt_errorGeometry, ///< the mesh cannot be drawn (no triangles, bad indices, NaN)
+    vt_errorContext,  ///< the GL context is missing, too old, or failed
+    vt_errorMemory,   ///< an allocation failed
+} vtResult;
+
+/// Why a call failed: one sentence that names the thing, the value and the remedy. Every function that
+/// takes a vtError* accepts NULL.
+typedef struct vtError {
+    vtResult result;
+    char message[512];
+} vtError;
+
+// ------------------------------------------------------------------------------------------------ mesh
+
+typedef struct vtVec3 {
+    float x, y, z;
+} vtVec3;
+
+/// Triangles as the caller has them.
+typedef struct vtMeshDef {
+    const float* positions;  ///< 3 * vertexCount, finite
+    const float* normals;    ///< 3 * vertexCount, outward, need not be unit; NULL: computed (see vtCreateMesh)
+    const uint32_t* indices; ///< indexCount, counter-clockwise seen from outside; NULL: 0, 1, 2, ...
+    uint32_t vertexCount;
+    uint32_t indexCount; ///< a multiple of 3
+} vtMeshDef;
+
+/// A validated triangle mesh. Read it freely; change it only through the functions below.
+typedef struct vtMesh {
+    float* positions;  ///< 3 * vertexCount
+    float* normals;    ///< 3 * vertexCount, unit length
+    uint32_t* indices; ///< indexCount
+    uint32_t vertexCount;
+    uint32_t indexCount;
+    vtVec3 boundsMin, boundsMax;
+    bool normalsComputed;       ///< the input had no normals (or some of zero length)
+    uint32_t openEdgeCount;     ///< edges, over welded positions, without an opposite twin; 0: closed
+    uint32_t degenerateCount;   ///< triangles of no area, kept in the count above but never visible
+} vtMesh;
+
+/// Copies and checks triangles. Missing normals are computed as angle-weighted means over welded
+/// positions (Thurmer & Wuthrich 1998), which is what the truth images of the tests use.
+/// Fails with vt_errorGeometry for no triangles, an index out of range, or a NaN or infinite number.
+/// `name` goes into the error sentence. On failure *mesh is zeroed.
+vtResult vtCreateMesh(const vtMeshDef* def, const char* name, vtMesh* mesh, vtError* error);
+
+/// One of the built-in closed, outward shapes: sphere torus knot goblet bottle diamond.
+/// Fails with vt_errorArgument for another name.
+vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error);
+
+/// Names of the built-in shapes, by index; NULL past the end. `vtShapeSummary` says what each is.
+const char* vtShapeName(int index);
+const char* vtShapeSummary(int index);
+
+/// Frees what the mesh holds and zeroes it. Safe on a zeroed mesh.
+void vtDestroyMesh(vtMesh* mesh);
+
+// ----------------------------------------------------------------------------------------------- model
+
+/// Reads a whole file for the model loader (external buffers of a .gltf). On success returns true with
+/// *bytes allocated by malloc; the loader frees it.
+typedef bool vtReadFileFcn(const char* path, uint8_t** bytes, size_t* size, void* userData);
+
+typedef struct vtModelDef {
+    const void* bytes; ///< the contents of a .glb or .gltf file
+    size_t size;
+    const char* name;        ///< for error sentences, usually the path
+    const char* directory;   ///< where external buffers lie; NULL or "": the current one
+    vtReadFileFcn* readFile; ///< NULL: external buffers are an error
+    void* userData;          ///< passed to readFile
+} vtModelDef;
+
+typedef struct vtModel {
+    vtMesh mesh; ///< all triangles of the file's scene, in world space
+    float ior;   ///< KHR_materials_ior of the first material used; 0 where the file gives none
+} vtModel;
+
+/// Loads glTF 2.0 (through tinygltf). Everything that can be wrong with a file gives a sentence.
+/// On failure *model is zeroed.
+vtResult vtLoadModel(const vtModelDef* def, vtModel* model, vtError* error);
+void vtDestroyModel(vtModel* model);
+
+// ----------------------------------------------------------------------------------------- environment
+
+typedef enum vtEnvironmentKind {
+    vt_environmentChecker = 0, ///< the checker of the test conventions
+    vt_environmentStudio,      ///< soft boxes in a dark room
+    vt_environmentSky,         ///< sky, sun and ground
+    vt_environmentImage,       ///< an equirectangular picture
+} vtEnvironmentKind;
+
+/// What surrounds the glass, infinitely far away. Linear radiance, Rec. 709 primaries.
+/// Equirectangular: u = 0.5 + atan2(d.z, d.x) / 2pi, v = 0.5 + asin(d.y) / pi, v = 1 the top row.
+typedef struct vtEnvironment {
+    vtEnvironmentKind kind;
+    float* pixels; ///< 3 * width * height, top row first; NULL unless kind is vt_environmentImage
+    int width, height;
+} vtEnvironment;
+
+/// A built-in environment by name: checker studio sky. Evaluated per pixel, crisp at any resolution.
+vtResult vtCreateEnvironment(const char* name, vtEnvironment* environment, vtError* error);
+const char* vtEnvironmentName(int index);
+const char* vtEnvironmentSummary(int index);
+
+/// Decodes a .hdr (linear), .png or .jpg (sRGB, converted to linear) held in memory.
+vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtEnvironment* environment,
+                           vtError* error);
+
+/// Radiance arriving from a unit direction; the same numbers as the shaders give.
+vtVec3 vtEnvironment_Sample(const vtEnvironment* environment, vtVec3 direction);
+void vtDestroyEnvironment(vtEnvironment* environment);
+
+// ------------------------------------------------------------------------------------------------ view
+
+/// A pinhole camera. The field of view is vertical. Pixel (i, j), j = 0 on top, looks along
+/// normalize(x*right + y*up + forward), x = ((i+.5)/W*2-1)*tan(fovY/2)*W/H, y = (1-(j+.5)/H*2)*tan(fovY/2).
+typedef struct vtView {
+    vtVec3 eye;
+    vtVec3 target;
+    float fovY; ///< degrees, 1 to 170
+} vtView;
+
+/// A view that shows the whole mesh with some margin, from slightly above and to the right. `fovY` in
+/// degrees, `aspect` is width over height.
+vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect);
+
+/// Turns the eye about the target: `yaw` about +Y, `pitch` upwards, radians; stops short of the poles.
+vtView vtView_Orbit(vtView view, float yaw, float pitch);
+
+/// Moves the eye towards (factor < 1) or away from (factor > 1) the target.
+vtView vtView_Zoom(vtView view, float factor);
+
+// ------------------------------------------------------------------------------------------- rendering
+
+typedef enum vtTechnique {
+    vt_techniqueLayered = 0, ///< Wang & Chi 2014
+    vt_techniqueCount,
+} vtTechnique;
+
+/// A row of the technique table, for menus, `vitrine list` and the documentation.
+typedef struct vtTechniqueInfo {
+    const char* id;      ///< the name on the command line
+    const char* summary; ///< one line
+    const char* source;  ///< authors, title, year
+    int minLayers;       ///< fewest layers it can work with
+    int maxLayers;
+} vtTechniqueInfo;
+const vtTechniqueInfo* vtTechnique_Info(vtTechnique technique);
+
+/// The technique of that id, or vt_techniqueCount.
+vtTechnique vtFindTechnique(const char* id);
+
+typedef enum vtOutput {
+    vt_outputPicture = VT_OUTPUT_PICTURE,  ///< the glass before its environment, sRGB
+    vt_outputAnalysis = VT_OUTPUT_ANALYSIS,     ///< path colours: red two refractions, blue more, green where TIR took part, grey lost
+    vt_outputLayerDepth = VT_OUTPUT_LAYER_DEPTH,   ///< depth of layer `layer`, near white, far dark, background blue
+    vt_outputLayerNormal = VT_OUTPUT_LAYER_NORMAL,  ///< world-space normal of layer `layer` as 0.5 + 0.5 n
+} vtOutput;
+
+/// Everything that decides one picture.
+typedef struct vtFrame {
+    vtView view;
+    vtTechnique technique;
+    vtOutput output;
+    int layer;             ///< for the layer outputs: 0 (nearest) to layers - 1
+    float ior;             ///< index of refraction of the glass, 1 to 4; default 1.5
+    int layers;            ///< depth layers peeled, 1 to VT_MAX_LAYERS; default 4
+    int steps;             ///< linear search steps a segment, 1 to VT_MAX_STEPS; default 50
+    int refine;            ///< binary search steps after them, 0 to VT_MAX_REFINE; default 8
+    int maxEvents;         ///< refractions and internal reflections of a path, 1 to VT_MAX_EVENTS; default 8
+    int layerSize;         ///< longer side of the layer textures, texels, 16 to 8192; 0: that of the picture
+    int width, height;     ///< picture, pixels, 1 to 16384
+    uint32_t framebuffer;  ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
+} vtFrame;
+
+/// 512 x 512, technique layered, and the defaults documented at each field; the view looks at the origin.
+vtFrame vtDefaultFrame(void);
+
+/// Checks every field against its documented range; the sentence names field, value and range.
+vtResult vtValidateFrame(const vtFrame* frame, vtError* error);
+
+typedef void (*vtProc)(void);
+typedef vtProc vtGetProcAddressFcn(const char* name);
+
+typedef struct vtRendererDef {
+    vtGetProcAddressFcn* getProcAddress; ///< e.g. glfwGetProcAddress; NULL only on the web
+} vtRendererDef;
+
+typedef struct vtRenderer vtRenderer;
+
+/// What the renderer runs on and holds; strings live as long as the renderer.
+typedef struct vtRendererInfo {
+    const char* vendor;
+    const char* device;
+    const char* version;
+    size_t textureBytes; ///< GPU memory of layers, targets and environment
+    size_t meshBytes;    ///< GPU memory of the mesh
+    int layerWidth, layerHeight; ///< of the last frame, texels
+} vtRendererInfo;
+
+/// Compiles the shaders in the current context. Fails with vt_errorContext and the reason.
+vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** renderer, vtError* error);
+/// Frees all GL objects; the same context must be current. Safe on NULL.
+void vtDestroyRenderer(vtRenderer* renderer);
+
+/// Uploads a mesh or an environment in place of the one before; on failure the one before stays.
+vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error);
+vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error);
+
+/// Draws one frame into frame->framebuffer, whose lower left width x height pixels are overwritten.
+/// Leaves that framebuffer bound, depth test, blending and face culling off.
+vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error);
+
+/// Draws one frame off screen and reads it back: 4 * width * height bytes, sRGB with alpha 255, top row
+/// first. frame->framebuffer is ignored; framebuffer 0 is bound afterwards.
+vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error);
+
+/// Exit directions of the last frame: 3 * width * height floats, top row first. Unit world directions;
+/// (0,0,0) where the eye ray misses the glass, (2,2,2) where the path was lost.
+vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error);
+
+vtRendererInfo vtRenderer_Info(const vtRenderer* renderer);
+
+#ifdef __cplusplus
+}
+#endif

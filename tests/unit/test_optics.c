@@ -1,0 +1,107 @@
+// Optics against closed forms.
+#include "base/optics.h"
+#include "testing.h"
+
+static const float ior = 1.5f;
+
+static vtVec3 incoming(float degrees)
+{
+    float a = degrees * VT_PI / 180.0f;
+    return (vtVec3){sinf(a), -cosf(a), 0.0f}; // down onto a floor whose normal is +Y
+}
+
+static const vtVec3 up = {0.0f, 1.0f, 0.0f};
+
+static void refractionFollowsSnell(void** state)
+{
+    (void)state;
+    for (float degrees = 0.0f; degrees < 90.0f; degrees += 5.0f) {
+        bool reflected;
+        vtVec3 T = vtBend(incoming(degrees), up, 1.0f / ior, &reflected);
+        assert_false(reflected);
+        assert_near(T.x, sinf(degrees * VT_PI / 180.0f) / ior, 1e-6);
+        assert_near(vtLength(T), 1.0f, 1e-6);
+        assert_true(T.y < 0.0f);
+    }
+}
+
+static void totalReflectionBeginsAtTheCriticalAngle(void** state)
+{
+    (void)state;
+    const float critical = asinf(1.0f / ior) * 180.0f / VT_PI; // 41.81 degrees for 1.5
+    bool reflected;
+    vtBend(incoming(critical - 0.01f), up, ior, &reflected);
+    assert_false(reflected);
+    vtVec3 R = vtBend(incoming(critical + 0.01f), up, ior, &reflected);
+    assert_true(reflected);
+    assert_near(R.x, incoming(critical + 0.01f).x, 1e-6);
+    assert_near(R.y, -incoming(critical + 0.01f).y, 1e-6);
+}
+
+static void sameIndexChangesNothing(void** state)
+{
+    (void)state;
+    for (float degrees = 0.0f; degrees < 89.0f; degrees += 7.0f) {
+        bool inside = false, reflected;
+        vtVec3 I = incoming(degrees);
+        vtVec3 T = vtMeetSurface(I, up, up, 1.0f, &inside, &reflected);
+        assert_true(inside);
+        assert_near(vtLength(vtSub(T, I)), 0.0f, 1e-6);
+    }
+}
+
+// A plate of thickness d shifts a ray sideways by d sin(a) (1 - cos(a) / sqrt(n^2 - sin^2(a))) and leaves
+// its direction alone (Hecht, Optics, section 4.4).
+static void slabShiftsByTheTextbookOffset(void** state)
+{
+    (void)state;
+    const float thickness = 0.7f;
+    for (float degrees = 0.0f; degrees < 85.0f; degrees += 5.0f) {
+        bool inside = false, reflected;
+        vtVec3 I = incoming(degrees), down = {0.0f, -1.0f, 0.0f};
+        vtVec3 T = vtMeetSurface(I, up, up, ior, &inside, &reflected);
+        vtVec3 leave = vtScale(T, thickness / -T.y);
+        vtVec3 E = vtMeetSurface(T, down, down, ior, &inside, &reflected);
+        assert_false(inside);
+        assert_near(vtLength(vtSub(E, I)), 0.0f, 2e-6);
+
+        float a = degrees * VT_PI / 180.0f;
+        float expected = thickness * sinf(a) * (1.0f - cosf(a) / sqrtf(ior * ior - sinf(a) * sinf(a)));
+        float offset = vtLength(vtSub(leave, vtScale(I, vtDot(leave, I))));
+        assert_near(offset, expected, 1e-5);
+    }
+}
+
+// An interpolated normal that turns its back to the ray, or sends it through the wrong side, is not used.
+static void trianglesNormalDecidesWhereTheOtherFails(void** state)
+{
+    (void)state;
+    const vtVec3 I = vtNormalize((vtVec3){1.0f, -0.05f, 0.0f});
+    const vtVec3 turned = vtNormalize((vtVec3){1.0f, 0.3f, 0.0f}); // dot(turned, I) > 0
+    bool inside = false, reflected, insideFlat = false;
+    vtVec3 T = vtMeetSurface(I, turned, up, ior, &inside, &reflected);
+    vtVec3 flat = vtMeetSurface(I, up, up, ior, &insideFlat, &reflected);
+    assert_true(inside);
+    assert_near(vtLength(vtSub(T, flat)), 0.0f, 1e-6);
+    assert_true(T.y < 0.0f);
+
+    // Inside, total reflection about a tilted normal that would lead out through the triangle.
+    inside = true;
+    const vtVec3 J = vtNormalize((vtVec3){1.0f, 0.1f, 0.0f});
+    const vtVec3 tilted = vtNormalize((vtVec3){-0.2f, 1.0f, 0.0f});
+    vtVec3 R = vtMeetSurface(J, tilted, up, ior, &inside, &reflected);
+    assert_true(reflected);
+    assert_true(R.y < 0.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(refractionFollowsSnell),
+        cmocka_unit_test(totalReflectionBeginsAtTheCriticalAngle),
+        cmocka_unit_test(sameIndexChangesNothing),
+        cmocka_unit_test(slabShiftsByTheTextbookOffset),
+        cmocka_unit_test(trianglesNormalDecidesWhereTheOtherFails),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,363 @@
+// The built-in shapes: closed, outward, smooth, of the documented size and topology.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h> // needs those above
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/math.h"
+#include "vitrine.h"
+
+static vtMesh createShape(const char* name)
+{
+    vtMesh mesh;
+    vtError error;
+    assert_int_equal(vtCreateShape(name, &mesh, &error), vt_ok);
+    return mesh;
+}
+
+static vtVec3 getPosition(const vtMesh* mesh, size_t index)
+{
+    return vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[index]);
+}
+
+static vtVec3 getNormal(const vtMesh* mesh, size_t index)
+{
+    return vtMakeVec3(mesh->normals + 3 * (size_t)mesh->indices[index]);
+}
+
+/// Cross product of two sides of the triangle at `first`: twice its area along its normal.
+static vtVec3 getArea(const vtMesh* mesh, size_t first)
+{
+    vtVec3 a = getPosition(mesh, first);
+    return vtCross(vtSub(getPosition(mesh, first + 1), a), vtSub(getPosition(mesh, first + 2), a));
+}
+
+static double measureVolume(const vtMesh* mesh)
+{
+    double volume = 0.0;
+    for (size_t i = 0; i < mesh->indexCount; i += 3) {
+        volume += (double)vtDot(getPosition(mesh, i), getArea(mesh, i)) / 6.0;
+    }
+    return volume;
+}
+
+static int comparePositions(const void* a, const void* b)
+{
+    const float* p = a;
+    const float* q = b;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (p[axis] != q[axis]) {
+            return p[axis] < q[axis] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+/// V - E + F over welded positions, for a closed mesh, where E = 3 F / 2. Every vertex must be used.
+static int measureEuler(const vtMesh* mesh)
+{
+    float* sorted = malloc(mesh->vertexCount * 3 * sizeof(float));
+    assert_non_null(sorted);
+    memcpy(sorted, mesh->positions, mesh->vertexCount * 3 * sizeof(float));
+    qsort(sorted, mesh->vertexCount, 3 * sizeof(float), comparePositions);
+    int vertices = 1;
+    for (size_t i = 1; i < mesh->vertexCount; ++i) {
+        vertices += comparePositions(sorted + 3 * (i - 1), sorted + 3 * i) != 0;
+    }
+    free(sorted);
+    int triangles = (int)(mesh->indexCount / 3);
+    return vertices - 3 * triangles / 2 + triangles;
+}
+
+static int compareFloats(const void* a, const void* b)
+{
+    float x = *(const float*)a;
+    float y = *(const float*)b;
+    return (x > y) - (x < y);
+}
+
+/// Where the line through (0, height, depth) along +X meets the surface: sorted x, at most `room`.
+static int intersectLine(const vtMesh* mesh, float height, float depth, float* hits, int room)
+{
+    int count = 0;
+    for (size_t i = 0; i < mesh->indexCount; i += 3) {
+        vtVec3 p[3];
+        double side[3];
+        for (size_t k = 0; k < 3; ++k) {
+            p[k] = getPosition(mesh, i + k);
+        }
+        for (int k = 0; k < 3; ++k) {
+            vtVec3 a = p[(k + 1) % 3];
+            vtVec3 b = p[(k + 2) % 3];
+            side[k] = ((double)a.y - height) * ((double)b.z - depth) -
+                      ((double)a.z - depth) * ((double)b.y - height);
+        }
+        bool inside =
+            (side[0] > 0 && side[1] > 0 && side[2] > 0) || (side[0] < 0 && side[1] < 0 && side[2] < 0);
+        if (inside) {
+            double sum = side[0] + side[1] + side[2];
+            assert_true(count < room);
+            hits[count++] = (float)((side[0] * p[0].x + side[1] * p[1].x + side[2] * p[2].x) / sum);
+        }
+    }
+    qsort(hits, (size_t)count, sizeof *hits, compareFloats);
+    return count;
+}
+
+// ------------------------------------------------------------------------------------------------ table
+
+static void testNames(void** state)
+{
+    (void)state;
+    const char* const names[] = {"sphere", "torus", "knot", "goblet", "bottle", "diamond"};
+    for (int i = 0; i < 6; ++i) {
+        assert_string_equal(vtShapeName(i), names[i]);
+        assert_true(strlen(vtShapeSummary(i)) > 10);
+    }
+    assert_null(vtShapeName(6));
+    assert_null(vtShapeName(-1));
+    assert_null(vtShapeSummary(6));
+    assert_null(vtShapeSummary(-1));
+}
+
+static void testUnknownName(void** state)
+{
+    (void)state;
+    vtMesh mesh;
+    memset(&mesh, 0x5a, sizeof mesh);
+    vtError error;
+    assert_int_equal(vtCreateShape("teapot", &mesh, &error), vt_errorArgument);
+    assert_int_equal(error.result, vt_errorArgument);
+    assert_string_equal(
+        error.message,
+        "shape 'teapot' is unknown; the shapes are sphere, torus, knot, goblet, bottle and diamond");
+    assert_null(mesh.positions);
+    assert_int_equal(mesh.indexCount, 0);
+    assert_int_equal(vtCreateShape("", &mesh, NULL), vt_errorArgument);
+}
+
+// -------------------------------------------------------------------------------------------- all shapes
+
+static void testClosedAndOutward(void** state)
+{
+    (void)state;
+    for (int i = 0; vtShapeName(i) != NULL; ++i) {
+        vtMesh mesh = createShape(vtShapeName(i));
+        assert_int_equal(mesh.openEdgeCount, 0);
+        assert_int_equal(mesh.degenerateCount, 0);
+        assert_false(mesh.normalsComputed);
+        assert_true(measureVolume(&mesh) > 0.0);
+        assert_true(mesh.indexCount / 3 <= 60000);
+        vtDestroyMesh(&mesh);
+    }
+}
+
+static void testNormals(void** state)
+{
+    (void)state;
+    for (int i = 0; vtShapeName(i) != NULL; ++i) {
+        vtMesh mesh = createShape(vtShapeName(i));
+        for (size_t k = 0; k < mesh.indexCount; ++k) {
+            vtVec3 area = getArea(&mesh, k - k % 3);
+            vtVec3 normal = getNormal(&mesh, k);
+            assert_true(vtLength(area) > 0.0f);
+            assert_float_equal(vtLength(normal), 1.0f, 1e-5f);
+            // Smooth shapes are cut so finely that no triangle turns more than 8 degrees from the surface.
+            assert_true(vtDot(vtNormalize(area), normal) > 0.99f);
+        }
+        vtDestroyMesh(&mesh);
+    }
+}
+
+static void testExtents(void** state)
+{
+    (void)state;
+    for (int i = 0; vtShapeName(i) != NULL; ++i) {
+        vtMesh mesh = createShape(vtShapeName(i));
+        vtVec3 size = vtSub(mesh.boundsMax, mesh.boundsMin);
+        vtVec3 sum = vtAdd(mesh.boundsMax, mesh.boundsMin);
+        bool torus = strcmp(vtShapeName(i), "torus") == 0;
+        assert_float_equal(fmaxf(size.x, fmaxf(size.y, size.z)), torus ? 2.8f : 2.0f, 1e-5f);
+        assert_float_equal(vtLength(sum), 0.0f, 1e-5f);
+        vtDestroyMesh(&mesh);
+    }
+}
+
+static void testTopology(void** state)
+{
+    (void)state;
+    const int euler[] = {2, 0, 0, 2, 2, 2}; // 2 - 2 * holes
+    for (int i = 0; vtShapeName(i) != NULL; ++i) {
+        vtMesh mesh = createShape(vtShapeName(i));
+        assert_int_equal(measureEuler(&mesh), euler[i]);
+        vtDestroyMesh(&mesh);
+    }
+}
+
+// --------------------------------------------------------------------------------------------- each shape
+
+static void testSphere(void** state)
+{
+    (void)state;
+    vtMesh mesh = createShape("sphere");
+    double exact = 4.0 / 3.0 * (double)VT_PI;
+    assert_true(fabs(measureVolume(&mesh) / exact - 1.0) < 0.01);
+    for (size_t i = 0; i < mesh.indexCount; ++i) {
+        assert_float_equal(vtLength(getPosition(&mesh, i)), 1.0f, 1e-6f);
+        assert_true(vtLength(vtSub(getPosition(&mesh, i), getNormal(&mesh, i))) < 1e-6f);
+    }
+    vtDestroyMesh(&mesh);
+}
+
+static void testTorus(void** state)
+{
+    (void)state;
+    vtMesh mesh = createShape("torus");
+    double exact = 2.0 * (double)VT_PI * (double)VT_PI * 1.0 * 0.4 * 0.4;
+    assert_true(fabs(measureVolume(&mesh) / exact - 1.0) < 0.01);
+    for (size_t i = 0; i < mesh.indexCount; ++i) {
+        vtVec3 p = getPosition(&mesh, i);
+        vtVec3 spoke = vtNormalize((vtVec3){p.x, 0.0f, p.z});
+        vtVec3 offset = vtSub(p, spoke);
+        assert_float_equal(vtLength(offset), 0.4f, 1e-6f);
+        assert_true(vtLength(vtSub(vtNormalize(offset), getNormal(&mesh, i))) < 1e-5f);
+    }
+    vtDestroyMesh(&mesh);
+}
+
+/// The tube does not run into itself: a ball of radius 0.08 laid on it from outside, anywhere, holds no other
+/// part of it. (Samples: each 37th triangle against each 5th.)
+static void testKnot(void** state)
+{
+    (void)state;
+    vtMesh mesh = createShape("knot");
+    const float radius = 0.08f; // strands are 0.17 apart
+    for (size_t i = 0; i < mesh.indexCount; i += 3 * 37) {
+        vtVec3 centre = vtMulAdd(getPosition(&mesh, i), radius, getNormal(&mesh, i));
+        for (size_t k = 0; k < mesh.indexCount; k += 3 * 5) {
+            assert_true(vtLength(vtSub(getPosition(&mesh, k), centre)) > 0.999f * radius);
+        }
+    }
+    vtDestroyMesh(&mesh);
+}
+
+static void assertHollow(const char* name, float height)
+{
+    vtMesh mesh = createShape(name);
+    float x[8];
+    int count = intersectLine(&mesh, height, 0.0013f, x, 8);
+    assert_int_equal(count, 4);
+    assert_true(x[1] - x[0] >= 0.02f && x[1] - x[0] <= 0.06f);
+    assert_true(x[3] - x[2] >= 0.02f && x[3] - x[2] <= 0.06f);
+    assert_true(x[2] - x[1] > 0.4f);
+    vtDestroyMesh(&mesh);
+}
+
+static void testVesselsAreHollow(void** state)
+{
+    (void)state;
+    assertHollow("goblet", 0.4f);
+    assertHollow("goblet", 0.8f);
+    assertHollow("bottle", -0.3f);
+    assertHollow("bottle", 0.0f);
+    // The goblet's stem is solid; the bottle's neck is not.
+    vtMesh mesh = createShape("goblet");
+    float x[8];
+    assert_int_equal(intersectLine(&mesh, -0.4567f, 0.0013f, x, 8), 2);
+    vtDestroyMesh(&mesh);
+    mesh = createShape("bottle");
+    assert_int_equal(intersectLine(&mesh, 0.7654f, 0.0013f, x, 8), 4);
+    assert_true(x[1] - x[0] >= 0.02f);
+    vtDestroyMesh(&mesh);
+}
+
+/// Wherever a line crosses glass, it crosses at least 0.02 of it.
+static void testVesselWalls(void** state)
+{
+    (void)state;
+    const char* const names[] = {"goblet", "bottle"};
+    for (int i = 0; i < 2; ++i) {
+        vtMesh mesh = createShape(names[i]);
+        for (float height = -0.95f; height < 0.96f; height += 0.0371f) {
+            float x[16];
+            int count = intersectLine(&mesh, height, 0.0013f, x, 16);
+            assert_true(count >= 2 && count % 2 == 0);
+            for (int k = 0; k < count; k += 2) {
+                assert_true(x[k + 1] - x[k] >= 0.02f);
+            }
+        }
+        vtDestroyMesh(&mesh);
+    }
+}
+
+/// Counts the flat faces by their directions, and checks the angles of the cut.
+static void testDiamond(void** state)
+{
+    (void)state;
+    vtMesh mesh = createShape("diamond");
+    const float degree = VT_PI / 180.0f;
+    vtVec3 faces[256];
+    int faceCount = 0, tables = 0, bezels = 0, mains = 0, girdle = 0;
+    for (size_t i = 0; i < mesh.indexCount; i += 3) {
+        vtVec3 normal = getNormal(&mesh, i);
+        assert_true(vtLength(vtSub(normal, getNormal(&mesh, i + 1))) == 0.0f);
+        assert_true(vtDot(normal, vtNormalize(getArea(&mesh, i))) > 0.999999f);
+        int face = 0;
+        while (face < faceCount && vtDot(faces[face], normal) < 0.99999f) {
+            ++face;
+        }
+        if (face < faceCount) {
+            continue;
+        }
+        assert_true(faceCount < 256);
+        faces[faceCount++] = normal;
+        float slope = acosf(vtClamp(normal.y, -1.0f, 1.0f)) / degree;
+        tables += slope < 0.01f;
+        bezels += fabsf(slope - 34.5f) < 0.02f;
+        mains += fabsf(slope - (180.0f - 40.75f)) < 0.02f;
+        girdle += fabsf(slope - 90.0f) < 0.05f;
+    }
+    assert_int_equal(tables, 1);
+    assert_int_equal(bezels, 8);
+    assert_int_equal(mains, 8);
+    assert_int_equal(girdle, 96);
+    assert_int_equal(faceCount - girdle, 57);
+    // Table 57 % of the diameter; total depth = crown + girdle + pavilion.
+    float tableRadius = 0.0f;
+    for (size_t i = 0; i < mesh.indexCount; ++i) {
+        vtVec3 p = getPosition(&mesh, i);
+        if (p.y > mesh.boundsMax.y - 1e-5f) {
+            tableRadius = fmaxf(tableRadius, hypotf(p.x, p.z));
+        }
+    }
+    assert_float_equal(tableRadius, 0.57f, 1e-5f);
+    float depth = 0.43f * tanf(34.5f * degree) + 0.06f + tanf(40.75f * degree);
+    assert_float_equal(mesh.boundsMax.y - mesh.boundsMin.y, depth, 1e-5f);
+    vtDestroyMesh(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(testNames),
+        cmocka_unit_test(testUnknownName),
+        cmocka_unit_test(testClosedAndOutward),
+        cmocka_unit_test(testNormals),
+        cmocka_unit_test(testExtents),
+        cmocka_unit_test(testTopology),
+        cmocka_unit_test(testSphere),
+        cmocka_unit_test(testTorus),
+        cmocka_unit_test(testKnot),
+        cmocka_unit_test(testVesselsAreHollow),
+        cmocka_unit_test(testVesselWalls),
+        cmocka_unit_test(testDiamond),
+    };
+    return cmocka_run_group_tests_name("shapes", tests, NULL, NULL);
+}

@@ -1,0 +1,126 @@
+// `layered` against exit directions of Blender Cycles: refraction and total internal reflection of index
+// 1.5, 8 events, 512 x 512, one ray through each pixel centre. The data is research material that cannot be
+// shipped; without it (environment variable VITRINE_DATA) the tests skip themselves.
+#include "base/image.h"
+#include "context.h"
+#include "files.h"
+#include "metrics.h"
+#include "testing.h"
+
+enum { side = 512 };
+
+typedef struct Case {
+    const char* model;
+    double within1; // share of pixels that must be within 1 degree
+    bool convex;    // two layers hold all of it
+} Case;
+
+static const Case cases[] = {
+    {"sphere_512f", 0.98, true}, {"torus_576f", 0.72, false}, {"knot_2400f", 0.72, false},
+    {"spot_5856", 0.68, false},  {"cow_5804", 0.68, false},   {"bunny_69666", 0.62, false},
+};
+
+typedef struct Fixture {
+    vtContext context;
+    vtRenderer* renderer;
+    const char* data;
+} Fixture;
+
+static int setUp(void** state)
+{
+    Fixture* fixture = calloc(1, sizeof *fixture);
+    vtError error;
+    fixture->data = getenv("VITRINE_DATA");
+    assert_ok(vtCreateContext(vt_backendAuto, &fixture->context, &error), error);
+    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error), error);
+    *state = fixture;
+    return 0;
+}
+
+static int tearDown(void** state)
+{
+    Fixture* fixture = *state;
+    vtDestroyRenderer(fixture->renderer);
+    vtDestroyContext(&fixture->context);
+    free(fixture);
+    return 0;
+}
+
+/// NULL with a note where the file is absent.
+static uint8_t* readData(const Fixture* fixture, const char* folder, const char* model, const char* ending, size_t* size)
+{
+    char path[1024];
+    uint8_t* bytes;
+    vtError error;
+    snprintf(path, sizeof path, "%s/%s/%s.%s", fixture->data != NULL ? fixture->data : "", folder, model, ending);
+    if (vtReadFile(path, &bytes, size, &error) != vt_ok) {
+        print_message("skipped: %s\n", error.message);
+        return NULL;
+    }
+    return bytes;
+}
+
+static vtDirectionError measure(Fixture* fixture, int layers, const float* truth)
+{
+    vtFrame frame = vtDefaultFrame();
+    vtDirectionError result;
+    vtError error;
+    uint8_t* pixels = malloc(4 * side * side);
+    float* directions = malloc(3 * sizeof(float) * side * side);
+    frame.layers = layers;
+    assert_ok(vtRenderer_DrawImage(fixture->renderer, &frame, pixels, &error), error);
+    assert_ok(vtRenderer_ReadDirections(fixture->renderer, directions, &error), error);
+    assert_ok(vtCompareDirections(directions, truth, side * side, &result, &error), error);
+    print_message("  %2d layers: within 1 degree %.2f %%, 5 degrees %.2f %%, median %.3f, lost %.2f %%, mask %zu pixels\n",
+                  layers, 100.0 * result.within1, 100.0 * result.within5, result.median, 100.0 * result.lost,
+                  result.maskErrors);
+    free(pixels);
+    free(directions);
+    return result;
+}
+
+static void layeredAgreesWithCycles(void** state)
+{
+    Fixture* fixture = *state;
+    int measured = 0;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        size_t size, truthSize;
+        uint8_t* bytes = readData(fixture, "mesh", cases[i].model, "glb", &size);
+        uint8_t* truthBytes = readData(fixture, "truth", cases[i].model, "pfm", &truthSize);
+        if (bytes == NULL || truthBytes == NULL) {
+            free(bytes);
+            free(truthBytes);
+            continue;
+        }
+        vtError error;
+        vtModel model;
+        float* truth;
+        int width, height;
+        assert_ok(vtLoadModel(&(vtModelDef){.bytes = bytes, .size = size, .name = cases[i].model}, &model, &error), error);
+        assert_ok(vtDecodePfm(truthBytes, truthSize, cases[i].model, &truth, &width, &height, &error), error);
+        assert_int_equal(width, side);
+        assert_int_equal(height, side);
+        assert_ok(vtRenderer_SetMesh(fixture->renderer, &model.mesh, &error), error);
+
+        print_message("%s\n", cases[i].model);
+        vtDirectionError two = measure(fixture, 2, truth);
+        vtDirectionError four = measure(fixture, 4, truth);
+        assert_true(four.within1 >= cases[i].within1);
+        assert_true(four.maskErrors < side * side / 1000);
+        assert_true(cases[i].convex ? four.within1 >= two.within1 : four.within1 > two.within1);
+        ++measured;
+        free(bytes);
+        free(truthBytes);
+        free(truth);
+        vtDestroyModel(&model);
+    }
+    if (measured == 0) {
+        skip();
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(layeredAgreesWithCycles)};
+    return cmocka_run_group_tests(tests, setUp, tearDown);
+}
