@@ -48,8 +48,9 @@ vec3 environmentStudio(vec3 d)
     // The backdrop's pool and a weak warm wall behind the camera: no direction is flat.
     float towards = 0.5 - 0.5 * d.z;
     float away = 1.0 - towards;
-    float pool = towards * towards * towards * towards;
-    light += vec3(0.26, 0.31, 0.39) * (pool * pool * pool * (1.0 - 0.8 * d.y));
+    float narrow = towards * towards * towards * towards;
+    float pool = narrow * narrow * narrow * narrow;
+    light += vec3(0.38, 0.45, 0.56) * (pool * (1.0 - 0.8 * d.y));
     light += vec3(0.035, 0.029, 0.023) * (away * away);
 
     float overhead = environmentLamp(d, vec3(0.0, 0.96, -0.28), 0.62, 0.36, 0.10);

@@ -15,6 +15,7 @@
 //   met a wall steeper than the layers can show, such as the silhouette's rim: a hit, not a loss.
 
 const float FIRST_STEP = 0.1; // of a linear step: clears the surface that the ray starts on
+const float BOX_MARGIN = 4.0; // texels at the far end
 const int SPARE_STEPS = 16;   // faults passed on the way do not use up the linear steps
 
 struct SurfaceHit {
@@ -23,10 +24,11 @@ struct SurfaceHit {
     vec3 flatNormal;
 };
 
-// Distance along the ray to where it leaves the object's box.
+// Distance along the ray to where it leaves the object's box, widened by a few texels: a face of the object
+// that lies in a face of its box is found only once the ray is behind the depth of the texel there.
 float boxExit(vec3 origin, vec3 direction)
 {
-    vec3 margin = 0.002 * (u_boundsMax.xyz - u_boundsMin.xyz) + 1e-6;
+    float margin = BOX_MARGIN * u_layerDepth.y * (u_layerFrustum.z - u_layerFrustum.x) / float(u_size.z);
     vec3 low = (u_boundsMin.xyz - margin - origin) / direction;
     vec3 high = (u_boundsMax.xyz + margin - origin) / direction;
     vec3 leave = max(low, high);

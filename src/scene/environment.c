@@ -84,8 +84,9 @@ vtVec3 environmentStudio(vtVec3 d)
 
     const float towards = 0.5f - 0.5f * d.z;
     const float away = 1.0f - towards;
-    const float pool = towards * towards * towards * towards;
-    light = vtMulAdd(light, pool * pool * pool * (1.0f - 0.8f * d.y), vec3(0.26f, 0.31f, 0.39f));
+    const float narrow = towards * towards * towards * towards;
+    const float pool = narrow * narrow * narrow * narrow;
+    light = vtMulAdd(light, pool * (1.0f - 0.8f * d.y), vec3(0.38f, 0.45f, 0.56f));
     light = vtMulAdd(light, away * away, vec3(0.035f, 0.029f, 0.023f));
 
     const float overhead = environmentLamp(d, vec3(0.0f, 0.96f, -0.28f), 0.62f, 0.36f, 0.10f);
