@@ -37,7 +37,8 @@ static EGLDisplay openDisplay(void)
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     PFNEGLGETPLATFORMDISPLAYEXTPROC getDisplay =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)eglGetProcAddress("eglGetPlatformDisplayEXT");
-    PFNEGLQUERYDEVICESEXTPROC queryDevices = (PFNEGLQUERYDEVICESEXTPROC)eglGetProcAddress("eglQueryDevicesEXT");
+    PFNEGLQUERYDEVICESEXTPROC queryDevices =
+        (PFNEGLQUERYDEVICESEXTPROC)eglGetProcAddress("eglQueryDevicesEXT");
     EGLDisplay candidates[10];
     int count = 0;
     if (extensions != NULL && getDisplay != NULL && queryDevices != NULL &&
@@ -50,7 +51,8 @@ static EGLDisplay openDisplay(void)
             }
         }
     }
-    if (extensions != NULL && getDisplay != NULL && strstr(extensions, "EGL_MESA_platform_surfaceless") != NULL) {
+    if (extensions != NULL && getDisplay != NULL &&
+        strstr(extensions, "EGL_MESA_platform_surfaceless") != NULL) {
         candidates[count++] = getDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
     }
     candidates[count++] = eglGetDisplay(EGL_DEFAULT_DISPLAY);
@@ -66,10 +68,12 @@ vtResult vtCreateEglContext(vtContext* context, vtError* error)
 {
     static const EGLint configAttributes[] = {EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE,
                                               EGL_OPENGL_ES3_BIT, EGL_NONE};
-    static const EGLint contextAttributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
+    static const EGLint contextAttributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0,
+                                               EGL_NONE};
     EGLDisplay display = openDisplay();
     if (display == EGL_NO_DISPLAY) {
-        return vtFail(error, vt_errorContext, "egl: no display starts (is a driver installed? libegl1, libgl1-mesa-dri)");
+        return vtFail(error, vt_errorContext,
+                      "egl: no display starts (is a driver installed? libegl1, libgl1-mesa-dri)");
     }
     EGLConfig config = NULL;
     EGLint configCount = 0;
@@ -81,8 +85,8 @@ vtResult vtCreateEglContext(vtContext* context, vtError* error)
     if (made == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, made)) {
         EGLint code = eglGetError();
         eglTerminate(display);
-        return vtFail(error, vt_errorContext, "egl: no OpenGL ES 3.0 context without a surface (EGL error 0x%04x)",
-                      (unsigned)code);
+        return vtFail(error, vt_errorContext,
+                      "egl: no OpenGL ES 3.0 context without a surface (EGL error 0x%04x)", (unsigned)code);
     }
     EglState* state = calloc(1, sizeof *state);
     if (state == NULL) {

@@ -9,7 +9,8 @@
 vtResult vtCreateOSMesaContext(vtContext* context, vtError* error)
 {
     (void)context;
-    return vtFail(error, vt_errorContext, "osmesa: this vitrine was built without it (libosmesa6-dev); try egl");
+    return vtFail(error, vt_errorContext,
+                  "osmesa: this vitrine was built without it (libosmesa6-dev); try egl");
 }
 
 #else

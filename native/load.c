@@ -21,11 +21,8 @@ static vtResult loadModelFile(const char* path, vtModel* model, vtError* error)
     if (slash != NULL && (size_t)(slash - path) + 1 < sizeof directory) {
         memcpy(directory, path, (size_t)(slash - path) + 1);
     }
-    vtModelDef def = {.bytes = bytes,
-                      .size = size,
-                      .name = path,
-                      .directory = directory,
-                      .readFile = vtReadFileForModel};
+    vtModelDef def = {
+        .bytes = bytes, .size = size, .name = path, .directory = directory, .readFile = vtReadFileForModel};
     result = vtLoadModel(&def, model, error);
     free(bytes);
     return result;
@@ -59,13 +56,15 @@ static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vt
 static void printNotes(const char* name, const vtMesh* mesh, bool verbose)
 {
     if (mesh->openEdgeCount > 0) {
-        fprintf(stderr,
-                "vitrine: warning: '%s' is not closed (%u open edges); light that enters through a hole never "
-                "finds its way out there\n",
-                name, mesh->openEdgeCount);
+        fprintf(
+            stderr,
+            "vitrine: warning: '%s' is not closed (%u open edges); light that enters through a hole never "
+            "finds its way out there\n",
+            name, mesh->openEdgeCount);
     }
     if (mesh->normalsComputed) {
-        fprintf(stderr, "vitrine: note: '%s' lacks normals; they are computed, smooth over its edges\n", name);
+        fprintf(stderr, "vitrine: note: '%s' lacks normals; they are computed, smooth over its edges\n",
+                name);
     }
     if (verbose) {
         fprintf(stderr, "vitrine: '%s': %u triangles, %u vertices, box %g %g %g to %g %g %g\n", name,
@@ -109,7 +108,8 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     *frame = vtDefaultFrame();
     frame->technique = vtFindTechnique(options->technique);
     if (frame->technique == vt_techniqueCount) {
-        return vtFail(error, vt_errorArgument, "technique '%s' is unknown; see 'vitrine list'", options->technique);
+        return vtFail(error, vt_errorArgument, "technique '%s' is unknown; see 'vitrine list'",
+                      options->technique);
     }
     frame->output = options->analysis ? vt_outputAnalysis : vt_outputPicture;
     frame->width = options->size[0];

@@ -28,8 +28,8 @@ static int compareFloats(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-vtResult vtCompareDirections(const float* directions, const float* truth, size_t count, vtDirectionError* result,
-                             vtError* error)
+vtResult vtCompareDirections(const float* directions, const float* truth, size_t count,
+                             vtDirectionError* result, vtError* error)
 {
     *result = (vtDirectionError){0};
     float* angles = malloc(sizeof(float) * (count + 1));

@@ -29,8 +29,10 @@ static const Option table[] = {
     {"output", 'o', kindText, AT(output), 0, 0, "FILE", "the picture, PNG; - is standard output", RENDER},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID", "see 'vitrine list' (layered)", RENDER | VIEW},
     {"layers", 0, kindInteger, AT(layers), 1, VT_MAX_LAYERS, "N", "depth layers peeled (4)", RENDER | VIEW},
-    {"steps", 0, kindInteger, AT(steps), 1, VT_MAX_STEPS, "N", "linear search steps a segment (50)", RENDER | VIEW},
-    {"refine", 0, kindInteger, AT(refine), 0, VT_MAX_REFINE, "N", "binary search steps after them (8)", RENDER | VIEW},
+    {"steps", 0, kindInteger, AT(steps), 1, VT_MAX_STEPS, "N", "linear search steps a segment (50)",
+     RENDER | VIEW},
+    {"refine", 0, kindInteger, AT(refine), 0, VT_MAX_REFINE, "N", "binary search steps after them (8)",
+     RENDER | VIEW},
     {"max-events", 0, kindInteger, AT(maxEvents), 1, VT_MAX_EVENTS, "N",
      "refractions and internal reflections of a path (8)", RENDER | VIEW},
     {"layer-size", 0, kindInteger, AT(layerSize), 16, 8192, "N",
@@ -38,8 +40,10 @@ static const Option table[] = {
     {"ior", 0, kindNumber, AT(ior), 1, 4, "N", "index of refraction (the file's, else 1.5)", RENDER | VIEW},
     {"environment", 'e', kindText, AT(environment), 0, 0, "NAME|FILE",
      "see 'vitrine list', or a .hdr, .png or .jpg, equirectangular (studio)", RENDER | VIEW},
-    {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)", RENDER | VIEW},
-    {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)", RENDER | VIEW},
+    {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)",
+     RENDER | VIEW},
+    {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)",
+     RENDER | VIEW},
     {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", RENDER | VIEW},
     {"resolution", 'r', kindSize, AT(size), 1, 16384, "W,H", "pixels (512,512)", RENDER | VIEW},
     {"directions", 0, kindText, AT(directions), 0, 0, "FILE",
@@ -83,8 +87,9 @@ static vtResult storeNumbers(const Option* option, const char* text, void* field
     for (int i = 0; i < count && option->kind != kindVector; ++i) {
         bool whole = option->kind == kindNumber || numbers[i] == floor(numbers[i]);
         if (!whole || numbers[i] < option->low || numbers[i] > option->high) {
-            return vtFail(error, vt_errorArgument, "--%s is %s; it must be %s from %g to %g", option->name, text,
-                          option->kind == kindNumber ? "a number" : "a whole number", option->low, option->high);
+            return vtFail(error, vt_errorArgument, "--%s is %s; it must be %s from %g to %g", option->name,
+                          text, option->kind == kindNumber ? "a number" : "a whole number", option->low,
+                          option->high);
         }
     }
     switch (option->kind) {
@@ -159,10 +164,12 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     while ((code = getopt_long(count, words, letters, longOptions, NULL)) != -1) {
         const char* word = words[optind - 1];
         if (code == ':') {
-            return vtFail(error, vt_errorArgument, "option %s needs a value; see 'vitrine %s --help'", word, words[0]);
+            return vtFail(error, vt_errorArgument, "option %s needs a value; see 'vitrine %s --help'", word,
+                          words[0]);
         }
         if (code == '?') {
-            return vtFail(error, vt_errorArgument, "unknown option %s; see 'vitrine %s --help'", word, words[0]);
+            return vtFail(error, vt_errorArgument, "unknown option %s; see 'vitrine %s --help'", word,
+                          words[0]);
         }
         const Option* option = &table[0];
         while (code < 256 ? option->letter != code : option != &table[code - 256]) {
@@ -177,7 +184,8 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         options->model = words[optind++];
     }
     if (optind < count) {
-        return vtFail(error, vt_errorArgument, "one model is drawn at a time; '%s' is a second one", words[optind]);
+        return vtFail(error, vt_errorArgument, "one model is drawn at a time; '%s' is a second one",
+                      words[optind]);
     }
     return vtSucceed(error);
 }
@@ -194,7 +202,8 @@ void vtPrintOptions(vtCommand command)
         if (option->letter != 0) {
             snprintf(letter, sizeof letter, "-%c, ", option->letter);
         }
-        snprintf(left, sizeof left, "%s--%s %s", letter, option->name, option->argument ? option->argument : "");
+        snprintf(left, sizeof left, "%s--%s %s", letter, option->name,
+                 option->argument ? option->argument : "");
         if (option->high > option->low) {
             snprintf(range, sizeof range, ", %g to %g", option->low, option->high);
         }

@@ -21,7 +21,8 @@ static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, Output* 
 {
     uint8_t* pixels = malloc(4 * (size_t)frame->width * (size_t)frame->height);
     if (pixels == NULL) {
-        return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", frame->width, frame->height);
+        return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", frame->width,
+                      frame->height);
     }
     vtResult result = vtRenderer_DrawImage(renderer, frame, pixels, error);
     if (result == vt_ok) {
@@ -35,7 +36,8 @@ static vtResult readDirections(vtRenderer* renderer, const vtFrame* frame, Outpu
 {
     float* directions = malloc(3 * sizeof(float) * (size_t)frame->width * (size_t)frame->height);
     if (directions == NULL) {
-        return vtFail(error, vt_errorMemory, "directions: out of memory for %d x %d", frame->width, frame->height);
+        return vtFail(error, vt_errorMemory, "directions: out of memory for %d x %d", frame->width,
+                      frame->height);
     }
     vtResult result = vtRenderer_ReadDirections(renderer, directions, error);
     if (result == vt_ok) {
@@ -65,22 +67,23 @@ static vtResult drawLayerSheet(vtRenderer* renderer, const vtFrame* frame, Outpu
         bool isDepth = i < frame->layers;
         tile.output = isDepth ? vt_outputLayerDepth : vt_outputLayerNormal;
         result = vtRenderer_DrawImage(renderer, &tile, pixels, error);
-        uint8_t* corner = sheet + (isDepth ? 0 : sheetRow * (size_t)tile.height) + tileRow * (size_t)tile.layer;
+        uint8_t* corner =
+            sheet + (isDepth ? 0 : sheetRow * (size_t)tile.height) + tileRow * (size_t)tile.layer;
         for (int row = 0; row < tile.height; ++row) {
             memcpy(corner + sheetRow * (size_t)row, pixels + tileRow * (size_t)row, tileRow);
         }
     }
     if (result == vt_ok) {
-        result = vtEncodePng(sheet, 4, tile.width * frame->layers, 2 * tile.height, &output->bytes, &output->size,
-                             error);
+        result = vtEncodePng(sheet, 4, tile.width * frame->layers, 2 * tile.height, &output->bytes,
+                             &output->size, error);
     }
     free(pixels);
     free(sheet);
     return result;
 }
 
-static vtResult drawAll(const vtOptions* options, const vtInput* input, vtRenderer* renderer, Output outputs[3],
-                        vtError* error)
+static vtResult drawAll(const vtOptions* options, const vtInput* input, vtRenderer* renderer,
+                        Output outputs[3], vtError* error)
 {
     vtFrame frame;
     vtResult result = vtMakeFrame(options, input, &frame, error);
@@ -97,8 +100,8 @@ static vtResult drawAll(const vtOptions* options, const vtInput* input, vtRender
         vtRendererInfo info = vtRenderer_Info(renderer);
         fprintf(stderr, "vitrine: %s, %s\n", info.device, info.version);
         fprintf(stderr, "vitrine: ior %g, %d layers of %d x %d, %.1f MB of textures, %.1f MB of mesh\n",
-                (double)frame.ior, frame.layers, info.layerWidth, info.layerHeight, (double)info.textureBytes / 1e6,
-                (double)info.meshBytes / 1e6);
+                (double)frame.ior, frame.layers, info.layerWidth, info.layerHeight,
+                (double)info.textureBytes / 1e6, (double)info.meshBytes / 1e6);
     }
     if (result == vt_ok && options->directions != NULL) {
         outputs[1].path = options->directions;
@@ -111,7 +114,8 @@ static vtResult drawAll(const vtOptions* options, const vtInput* input, vtRender
     return result;
 }
 
-static vtResult renderInContext(const vtOptions* options, const vtInput* input, Output outputs[3], vtError* error)
+static vtResult renderInContext(const vtOptions* options, const vtInput* input, Output outputs[3],
+                                vtError* error)
 {
     static const struct {
         const char* name;

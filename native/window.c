@@ -120,7 +120,8 @@ vtResult vtCreateWindow(const char* title, int width, int height, vtWindow** out
     if (window == NULL || window->handle == NULL) {
         free(window);
         glfwTerminate();
-        return vtFail(error, vt_errorContext, "window: no OpenGL ES 3.0 or desktop GL 3.3 context can be opened");
+        return vtFail(error, vt_errorContext,
+                      "window: no OpenGL ES 3.0 or desktop GL 3.3 context can be opened");
     }
     glfwMakeContextCurrent(window->handle);
     glfwSetWindowUserPointer(window->handle, window);

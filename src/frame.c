@@ -61,15 +61,16 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         }
     }
     if (frame->output >= vt_outputLayerDepth && (frame->layer < 0 || frame->layer >= frame->layers)) {
-        return vtFail(error, vt_errorArgument, "layer is %d; with %d layers it must be from 0 to %d", frame->layer,
-                      frame->layers, frame->layers - 1);
+        return vtFail(error, vt_errorArgument, "layer is %d; with %d layers it must be from 0 to %d",
+                      frame->layer, frame->layers, frame->layers - 1);
     }
     if (!isFinite(frame->view.eye) || !isFinite(frame->view.target)) {
         return vtFail(error, vt_errorArgument, "the camera's position and target must be finite numbers");
     }
     float distance = vtLength(vtSub(frame->view.target, frame->view.eye));
     if (!(distance > 0.0f) || !isfinite(distance)) {
-        return vtFail(error, vt_errorArgument, "the camera stands on its target (%g, %g, %g); move one of them",
+        return vtFail(error, vt_errorArgument,
+                      "the camera stands on its target (%g, %g, %g); move one of them",
                       (double)frame->view.eye.x, (double)frame->view.eye.y, (double)frame->view.eye.z);
     }
     return vtSucceed(error);

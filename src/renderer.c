@@ -124,7 +124,7 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
 /// Layer textures as long on their longer side as asked, in the shape of their frustum.
 static void chooseLayerSize(const vtFrame* frame, const vtFrustum* frustum, int* width, int* height)
 {
-    int side = frame->layerSize > 0 ? frame->layerSize
+    int side = frame->layerSize > 0           ? frame->layerSize
                : frame->width > frame->height ? frame->width
                                               : frame->height;
     side = side < 16 ? 16 : side > 8192 ? 8192 : side;

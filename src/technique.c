@@ -11,7 +11,8 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueLayered] =
         {
             .info = {.id = "layered",
-                     .summary = "N peeled layers searched in image space, refraction and total internal reflection",
+                     .summary =
+                         "N peeled layers searched in image space, refraction and total internal reflection",
                      .source = "Wang & Chi, Image Space Real-time Multi-refraction Technology, 2014",
                      .minLayers = 1,
                      .maxLayers = VT_MAX_LAYERS},
@@ -19,7 +20,8 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                         .vertex = {&vtChunk_screen_vert},
                         .fragment = {&vtChunk_optics, &vtChunk_octahedral, &vtChunk_layers,
                                      &vtChunk_search_layered, &vtChunk_refract_layered_frag},
-                        .samplers = {"u_surfaceDepth", "u_surfaceNormals", "u_mergedDepths", "u_layerNormals"}},
+                        .samplers = {"u_surfaceDepth", "u_surfaceNormals", "u_mergedDepths",
+                                     "u_layerNormals"}},
         },
 };
 

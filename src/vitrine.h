@@ -55,8 +55,8 @@ typedef struct vtVec3 {
 
 /// Triangles as the caller has them.
 typedef struct vtMeshDef {
-    const float* positions;  ///< 3 * vertexCount, finite
-    const float* normals;    ///< 3 * vertexCount, outward, need not be unit; NULL: computed (see vtCreateMesh)
+    const float* positions; ///< 3 * vertexCount, finite
+    const float* normals;   ///< 3 * vertexCount, outward, need not be unit; NULL: computed (see vtCreateMesh)
     const uint32_t* indices; ///< indexCount, counter-clockwise seen from outside; NULL: 0, 1, 2, ...
     uint32_t vertexCount;
     uint32_t indexCount; ///< a multiple of 3
@@ -70,9 +70,9 @@ typedef struct vtMesh {
     uint32_t vertexCount;
     uint32_t indexCount;
     vtVec3 boundsMin, boundsMax;
-    bool normalsComputed;       ///< the input had no normals (or some of zero length)
-    uint32_t openEdgeCount;     ///< edges, over welded positions, without an opposite twin; 0: closed
-    uint32_t degenerateCount;   ///< triangles of no area, kept in the count above but never visible
+    bool normalsComputed;     ///< the input had no normals (or some of zero length)
+    uint32_t openEdgeCount;   ///< edges, over welded positions, without an opposite twin; 0: closed
+    uint32_t degenerateCount; ///< triangles of no area, kept in the count above but never visible
 } vtMesh;
 
 /// Copies and checks triangles. Missing normals are computed as angle-weighted means over welded
@@ -188,10 +188,12 @@ const vtTechniqueInfo* vtTechnique_Info(vtTechnique technique);
 vtTechnique vtFindTechnique(const char* id);
 
 typedef enum vtOutput {
-    vt_outputPicture = VT_OUTPUT_PICTURE,  ///< the glass before its environment, sRGB
-    vt_outputAnalysis = VT_OUTPUT_ANALYSIS,     ///< path colours: red two refractions, blue more, green where TIR took part, grey lost
-    vt_outputLayerDepth = VT_OUTPUT_LAYER_DEPTH,   ///< depth of layer `layer`, near white, far dark, background blue
-    vt_outputLayerNormal = VT_OUTPUT_LAYER_NORMAL,  ///< world-space normal of layer `layer` as 0.5 + 0.5 n
+    vt_outputPicture = VT_OUTPUT_PICTURE,   ///< the glass before its environment, sRGB
+    vt_outputAnalysis = VT_OUTPUT_ANALYSIS, ///< path colours: red two refractions, blue more, green where TIR
+                                            ///< took part, grey lost
+    vt_outputLayerDepth =
+        VT_OUTPUT_LAYER_DEPTH, ///< depth of layer `layer`, near white, far dark, background blue
+    vt_outputLayerNormal = VT_OUTPUT_LAYER_NORMAL, ///< world-space normal of layer `layer` as 0.5 + 0.5 n
 } vtOutput;
 
 /// Everything that decides one picture.
@@ -199,15 +201,15 @@ typedef struct vtFrame {
     vtView view;
     vtTechnique technique;
     vtOutput output;
-    int layer;             ///< for the layer outputs: 0 (nearest) to layers - 1
-    float ior;             ///< index of refraction of the glass, 1 to 4; default 1.5
-    int layers;            ///< depth layers peeled, 1 to VT_MAX_LAYERS; default 4
-    int steps;             ///< linear search steps a segment, 1 to VT_MAX_STEPS; default 50
-    int refine;            ///< binary search steps after them, 0 to VT_MAX_REFINE; default 8
-    int maxEvents;         ///< refractions and internal reflections of a path, 1 to VT_MAX_EVENTS; default 8
-    int layerSize;         ///< longer side of the layer textures, texels, 16 to 8192; 0: that of the picture
-    int width, height;     ///< picture, pixels, 1 to 16384
-    uint32_t framebuffer;  ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
+    int layer;            ///< for the layer outputs: 0 (nearest) to layers - 1
+    float ior;            ///< index of refraction of the glass, 1 to 4; default 1.5
+    int layers;           ///< depth layers peeled, 1 to VT_MAX_LAYERS; default 4
+    int steps;            ///< linear search steps a segment, 1 to VT_MAX_STEPS; default 50
+    int refine;           ///< binary search steps after them, 0 to VT_MAX_REFINE; default 8
+    int maxEvents;        ///< refractions and internal reflections of a path, 1 to VT_MAX_EVENTS; default 8
+    int layerSize;        ///< longer side of the layer textures, texels, 16 to 8192; 0: that of the picture
+    int width, height;    ///< picture, pixels, 1 to 16384
+    uint32_t framebuffer; ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
 } vtFrame;
 
 /// 512 x 512, technique layered, and the defaults documented at each field; the view looks at the origin.
@@ -230,8 +232,8 @@ typedef struct vtRendererInfo {
     const char* vendor;
     const char* device;
     const char* version;
-    size_t textureBytes; ///< GPU memory of layers, targets and environment
-    size_t meshBytes;    ///< GPU memory of the mesh
+    size_t textureBytes;         ///< GPU memory of layers, targets and environment
+    size_t meshBytes;            ///< GPU memory of the mesh
     int layerWidth, layerHeight; ///< of the last frame, texels
 } vtRendererInfo;
 

@@ -1,0 +1,330 @@
+// The command line as people use it: output, options, bad input, golden images. Needs VITRINE_BINARY.
+// VITRINE_UPDATE_GOLDEN=1 writes the golden images instead of comparing with them.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { after, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
+const folder = mkdtempSync(join(tmpdir(), 'vitrine-'));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+// EGL unloads Mesa's driver before a leak checker of a sanitizer build can name its leaks; ours are checked
+// with OSMesa.
+const withoutLeakCheck = { ...process.env, ASAN_OPTIONS: 'detect_leaks=0' };
+
+function vitrine(args, options = {}) {
+  const result = spawnSync(binary, args, { cwd: folder, maxBuffer: 1 << 27, ...options });
+  return {
+    code: result.status,
+    signal: result.signal,
+    out: result.stdout,
+    text: result.stdout.toString(),
+    error: result.stderr.toString(),
+  };
+}
+
+/** Runs what must fail: exit code 1, one sentence holding every part, the output file as it was. */
+function refuses(args, parts, options = {}) {
+  const output = join(folder, 'kept.png');
+  writeFileSync(output, 'as it was');
+  const before = readdirSync(folder).sort();
+  const result = vitrine([...args, '-o', output], options);
+  assert.equal(result.signal, null, result.error);
+  assert.equal(result.code, 1, `exit code ${result.code}: ${result.error}`);
+  assert.match(result.error, /^vitrine: [^\n]+\n$/, 'one sentence');
+  for (const part of parts) assert.ok(result.error.includes(part), `'${part}' is not in: ${result.error}`);
+  assert.equal(readFileSync(output, 'utf8'), 'as it was');
+  assert.deepEqual(readdirSync(folder).sort(), before, 'no file is left behind');
+}
+
+// A cube, changed by each case before it is written.
+function cube() {
+  const positions = [];
+  for (let i = 0; i < 8; ++i) positions.push(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  const indices = [];
+  for (const [a, b, c, d] of [[4, 5, 7, 6], [1, 0, 2, 3], [5, 1, 3, 7], [0, 4, 6, 2], [6, 7, 3, 2], [0, 1, 5, 4]]) {
+    indices.push(a, b, c, a, c, d);
+  }
+  return { positions, indices };
+}
+
+function gltf({ positions, indices }, uri) {
+  const bin = Buffer.concat([Buffer.from(Float32Array.from(positions).buffer), Buffer.from(Uint32Array.from(indices).buffer)]);
+  const split = positions.length * 4;
+  const json = {
+    asset: { version: '2.0' },
+    scene: 0,
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    materials: [{ extensions: { KHR_materials_ior: { ior: 1.31 } } }],
+    extensionsUsed: ['KHR_materials_ior'],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
+    buffers: [{ byteLength: bin.length, ...(uri ? { uri } : {}) }],
+    bufferViews: [
+      { buffer: 0, byteOffset: 0, byteLength: split },
+      { buffer: 0, byteOffset: split, byteLength: bin.length - split },
+    ],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: positions.length / 3, type: 'VEC3', min: [-1, -1, -1], max: [1, 1, 1] },
+      { bufferView: 1, componentType: 5125, count: indices.length, type: 'SCALAR' },
+    ],
+  };
+  return { json, bin };
+}
+
+function glb({ json, bin }) {
+  const text = Buffer.from(JSON.stringify(json));
+  const padded = Buffer.concat([text, Buffer.alloc((4 - (text.length % 4)) % 4, 32)]);
+  const chunk = (type, data) => {
+    const head = Buffer.alloc(8);
+    head.writeUInt32LE(data.length, 0);
+    head.writeUInt32LE(type, 4);
+    return Buffer.concat([head, data]);
+  };
+  const body = Buffer.concat([chunk(0x4e4f534a, padded), chunk(0x004e4942, bin)]);
+  const head = Buffer.from('glTF\x02\0\0\0\0\0\0\0', 'latin1');
+  head.writeUInt32LE(body.length + 12, 8);
+  return Buffer.concat([head, body]);
+}
+
+function write(name, data) {
+  writeFileSync(join(folder, name), data);
+  return name;
+}
+
+const small = ['--resolution', '64,64'];
+
+describe('words', () => {
+  test('help, version and list', () => {
+    assert.match(vitrine(['--help']).text, /vitrine render MODEL -o OUT\.png/);
+    assert.match(vitrine(['--version']).text, /^vitrine \d+\.\d+\.\d+\n$/);
+    const list = vitrine(['list']).text;
+    for (const word of ['layered', 'sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'checker', 'studio', 'sky']) {
+      assert.ok(list.includes(word), word);
+    }
+    const help = vitrine(['render', '--help']);
+    assert.equal(help.code, 0);
+    for (const option of ['technique', 'layers', 'steps', 'refine', 'max-events', 'ior', 'environment', 'camera', 'target',
+      'fov', 'resolution', 'directions', 'layer-sheet', 'analysis', 'rendering-backend', 'verbose', 'output']) {
+      assert.ok(help.text.includes(`--${option}`), option);
+    }
+  });
+
+  test('a missing or unknown command', () => {
+    assert.equal(vitrine([]).code, 1);
+    const unknown = vitrine(['paint']);
+    assert.equal(unknown.code, 1);
+    assert.match(unknown.error, /unknown command 'paint'/);
+  });
+});
+
+describe('output', () => {
+  test('a picture to standard output', () => {
+    const result = vitrine(['render', 'diamond', ...small, '-o', '-']);
+    assert.equal(result.code, 0, result.error);
+    assert.deepEqual([...result.out.subarray(0, 8)], [137, 80, 78, 71, 13, 10, 26, 10]);
+    assert.equal(result.error, '');
+  });
+
+  test('directions are PFM: bottom row first, unit or marked', () => {
+    const result = vitrine(['render', 'sphere', '--resolution', '64,32', '--directions', 'd.pfm']);
+    assert.equal(result.code, 0, result.error);
+    const file = readFileSync(join(folder, 'd.pfm'));
+    assert.equal(file.subarray(0, 14).toString(), 'PF\n64 32\n-1.0\n');
+    assert.equal(file.length, 14 + 64 * 32 * 12);
+    let glass = 0;
+    for (let i = 0; i < 64 * 32; ++i) {
+      const [x, y, z] = [0, 4, 8].map((k) => file.readFloatLE(14 + 12 * i + k));
+      const length = Math.hypot(x, y, z);
+      assert.ok(length === 0 || x === 2 || Math.abs(length - 1) < 1e-4, `${x} ${y} ${z}`);
+      glass += length > 0;
+    }
+    assert.ok(glass > 400, `${glass} pixels of glass`);
+    // The light of the ball's lower rim has been bent upwards the most: the picture stands on its head.
+    const row = (j) => file.readFloatLE(14 + 12 * (64 * j + 32) + 4);
+    assert.ok(row(6) > 0.2 && row(25) < -0.2, `${row(6)} ${row(25)}`);
+  });
+
+  test('layer sheet, analysis, both backends, verbose', () => {
+    const result = vitrine(['render', 'torus', ...small, '-o', 'a.png', '--layer-sheet', 'sheet.png', '--analysis', '-v']);
+    assert.equal(result.code, 0, result.error);
+    assert.match(result.error, /4 layers of \d+ x \d+, [\d.]+ MB/);
+    const sheet = readFileSync(join(folder, 'sheet.png'));
+    assert.equal(sheet.readUInt32BE(16) % 4, 0);
+    for (const backend of ['osmesa', 'egl', 'auto']) {
+      const env = backend === 'egl' ? withoutLeakCheck : process.env;
+      const each = vitrine(['render', 'torus', ...small, '-o', `${backend}.png`, '--rendering-backend', backend], { env });
+      assert.equal(each.code, 0, each.error);
+    }
+    assert.deepEqual(readFileSync(join(folder, 'egl.png')), readFileSync(join(folder, 'osmesa.png')));
+  });
+
+  test('the index of refraction comes from the file, unless given', () => {
+    const model = write('ice.glb', glb(gltf(cube())));
+    assert.match(vitrine(['render', model, ...small, '-o', 'x.png', '-v']).error, /ior 1\.31/);
+    assert.match(vitrine(['render', model, ...small, '-o', 'x.png', '-v', '--ior', '2.4']).error, /ior 2\.4/);
+  });
+
+  test('a model from standard input, a .gltf with its buffer beside it', () => {
+    const input = glb(gltf(cube()));
+    assert.equal(vitrine(['render', '-', ...small, '-o', 'x.png'], { input }).code, 0);
+    mkdirSync(join(folder, 'sub'), { recursive: true });
+    const parts = gltf(cube(), 'cube data.bin');
+    write('sub/cube data.bin', parts.bin);
+    write('sub/cube.gltf', JSON.stringify(parts.json));
+    const result = vitrine(['render', 'sub/cube.gltf', ...small, '-o', 'x.png']);
+    assert.equal(result.code, 0, result.error);
+  });
+
+  test('an environment from a picture', () => {
+    const png = vitrine(['render', 'sphere', ...small, '-o', '-']).out;
+    write('env.png', png);
+    const result = vitrine(['render', 'sphere', ...small, '-o', 'x.png', '-e', './env.png']);
+    assert.equal(result.code, 0, result.error);
+  });
+});
+
+describe('notes', () => {
+  test('a mesh without normals is drawn, with a note', () => {
+    const result = vitrine(['render', write('cube.glb', glb(gltf(cube()))), ...small, '-o', 'x.png']);
+    assert.equal(result.code, 0, result.error);
+    assert.match(result.error, /note: 'cube\.glb' lacks normals/);
+  });
+
+  test('an open mesh is drawn, with a warning', () => {
+    const open = cube();
+    open.indices.length -= 6;
+    const result = vitrine(['render', write('open.glb', glb(gltf(open))), ...small, '-o', 'x.png']);
+    assert.equal(result.code, 0, result.error);
+    assert.match(result.error, /warning: 'open\.glb' is not closed \(4 open edges\)/);
+  });
+});
+
+describe('bad input', () => {
+  const render = (...args) => ['render', ...args, ...small];
+
+  test('options', () => {
+    refuses(render('sphere', '--layers', '40'), ['--layers is 40', 'from 1 to 16']);
+    refuses(render('sphere', '--layers', '2.5'), ['--layers is 2.5', 'whole number']);
+    refuses(render('sphere', '--steps', '0'), ['--steps is 0', 'from 1 to 1000']);
+    refuses(render('sphere', '--ior', '0.5'), ['--ior is 0.5', 'from 1 to 4']);
+    refuses(render('sphere', '--ior', 'nan'), ['--ior', 'number']);
+    refuses(render('sphere', '--fov', '200'), ['--fov is 200', 'from 1 to 170']);
+    refuses(render('sphere', '--camera', '1,2'), ['--camera', 'X,Y,Z']);
+    refuses(render('sphere', '--camera', '0,0,0', '--target', '0,0,0'), ['stands on its target']);
+    refuses(['render', 'sphere', '--resolution', '0,10'], ['--resolution is 0,10', 'from 1 to 16384']);
+    refuses(render('sphere', '--technique', 'magic'), ["'magic'", 'vitrine list']);
+    refuses(render('sphere', '--rendering-backend', 'vulkan'), ["'vulkan'", 'auto, osmesa or egl']);
+    refuses(render('sphere', '--shiny'), ['--shiny', 'vitrine render --help']);
+    refuses(render('sphere', 'torus'), ["'torus'", 'one model']);
+    refuses(render(), ['no model given']);
+    const none = vitrine(['render', 'sphere']);
+    assert.equal(none.code, 1);
+    assert.match(none.error, /no output given; add -o/);
+    assert.match(vitrine(['render', 'sphere', '-o']).error, /option -o needs a value/);
+  });
+
+  test('model files', () => {
+    refuses(render('nowhere.glb'), ["'nowhere.glb'", 'No such file']);
+    refuses(render('.'), ["'.'", 'directory']);
+    refuses(render('octopus'), ["'octopus'"]);
+    refuses(render(write('empty.glb', '')), ["'empty.glb'", 'empty']);
+    refuses(render(write('text.glb', 'once upon a time')), ["'text.glb'"]);
+    const whole = glb(gltf(cube()));
+    for (const length of [3, 12, 15, 40, whole.length - 200, whole.length - 1]) {
+      refuses(render(write('cut.glb', whole.subarray(0, length))), ["'cut.glb'"]);
+    }
+    const outside = gltf(cube(), 'lost.bin');
+    refuses(render(write('outside.gltf', JSON.stringify(outside.json))), ["'outside.gltf'", 'lost.bin']);
+  });
+
+  test('geometry', () => {
+    const change = (name, edit, parts) => {
+      const shape = cube();
+      edit(shape);
+      refuses(render(write(name, glb(gltf(shape)))), [`'${name}'`, ...parts]);
+    };
+    change('nan.glb', (s) => (s.positions[4] = NaN), ['vertex 1', 'not finite']);
+    change('inf.glb', (s) => (s.positions[23] = Infinity), ['vertex 7', 'not finite']);
+    change('index.glb', (s) => (s.indices[7] = 99), ['99', '8']);
+    change('nothing.glb', (s) => (s.indices.length = 0), []);
+    const lines = gltf(cube());
+    lines.json.meshes[0].primitives[0].mode = 1;
+    refuses(render(write('lines.glb', glb(lines))), ["'lines.glb'", 'triangle']);
+  });
+
+  test('environments', () => {
+    refuses(render('sphere', '-e', 'moon'), ["'moon'", 'studio']);
+    refuses(render('sphere', '-e', './nowhere.hdr'), ["'./nowhere.hdr'", 'No such file']);
+    refuses(render('sphere', '-e', write('text.hdr', 'once upon a time')), ["'text.hdr'"]);
+  });
+
+  test('output that cannot be written', () => {
+    const result = vitrine(['render', 'sphere', ...small, '-o', 'no/such/folder/x.png']);
+    assert.equal(result.code, 1);
+    assert.match(result.error, /'no\/such\/folder\/x\.png' cannot be written: No such file/);
+  });
+
+  test('no GL context, no display', () => {
+    const env = { ...withoutLeakCheck, __EGL_VENDOR_LIBRARY_FILENAMES: '/nonexistent.json', DISPLAY: '', WAYLAND_DISPLAY: '' };
+    refuses(render('sphere', '--rendering-backend', 'egl'), ['egl'], { env });
+    const view = vitrine(['view', 'sphere'], { env });
+    assert.equal(view.code, 1);
+    assert.match(view.error, /^vitrine: window: [^\n]+\n$/);
+  });
+});
+
+describe('window', () => {
+  const xvfb = spawnSync('sh', ['-c', 'command -v xvfb-run']).status === 0;
+  test('opens under Xvfb and draws', { skip: xvfb ? false : 'xvfb-run is not installed' }, () => {
+    const result = spawnSync('xvfb-run', ['-a', '-s', '-screen 0 800x600x24', binary, 'view', 'diamond', '--frames', '3',
+      '--resolution', '200,150'], { cwd: folder, env: withoutLeakCheck });
+    assert.equal(result.status, 0, result.stderr.toString());
+  });
+});
+
+describe('golden images', async () => {
+  const libraries = existsSync(join(here, 'node_modules/pixelmatch'));
+  const golden = join(here, 'golden');
+  const differences = resolve(here, '../build/golden');
+  const size = ['--resolution', '192,192'];
+  const cases = {
+    'sphere-checker': ['sphere', '-e', 'checker'],
+    'torus-studio': ['torus', '-e', 'studio'],
+    'knot-sky': ['knot', '-e', 'sky'],
+    'goblet-studio': ['goblet', '-e', 'studio'],
+    'bottle-sky': ['bottle', '-e', 'sky', '--camera', '2,1.2,2.4'],
+    'diamond-studio': ['diamond', '-e', 'studio', '--ior', '2.4', '--max-events', '16'],
+    'knot-analysis': ['knot', '--analysis'],
+    'torus-two-layers': ['torus', '-e', 'checker', '--layers', '2'],
+  };
+  for (const [name, args] of Object.entries(cases)) {
+    test(name, { skip: libraries ? false : 'npm packages are not installed (tests/package.json)' }, async () => {
+      const { PNG } = await import('pngjs');
+      const { default: pixelmatch } = await import('pixelmatch');
+      const file = join(golden, `${name}.png`);
+      const result = vitrine(['render', ...args, ...size, '-o', '-']);
+      assert.equal(result.code, 0, result.error);
+      if (process.env.VITRINE_UPDATE_GOLDEN) {
+        mkdirSync(golden, { recursive: true });
+        writeFileSync(file, result.out);
+        return;
+      }
+      const [drawn, wanted] = [PNG.sync.read(result.out), PNG.sync.read(readFileSync(file))];
+      const picture = new PNG({ width: wanted.width, height: wanted.height });
+      // 0.1 is pixelmatch's default for "looks different"; another LLVM may round a few paths elsewhere.
+      const different = pixelmatch(drawn.data, wanted.data, picture.data, wanted.width, wanted.height, { threshold: 0.1 });
+      if (different > 0) {
+        mkdirSync(differences, { recursive: true });
+        writeFileSync(join(differences, `${name}.png`), result.out);
+        writeFileSync(join(differences, `${name}-difference.png`), PNG.sync.write(picture));
+      }
+      assert.ok(different <= 0.002 * wanted.width * wanted.height, `${different} pixels differ; see build/golden/`);
+    });
+  }
+});

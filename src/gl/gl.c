@@ -35,12 +35,14 @@ vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
 #undef VT_GL_LOAD
     if (missing != NULL) {
         return vtFail(error, vt_errorContext,
-                      "GL: the context has no %s; OpenGL ES 3.0, WebGL 2 or desktop GL 3.3 is needed", missing);
+                      "GL: the context has no %s; OpenGL ES 3.0, WebGL 2 or desktop GL 3.3 is needed",
+                      missing);
     }
 #endif
     const char* version = (const char*)gl->GetString(GL_VERSION);
     if (version == NULL) {
-        return vtFail(error, vt_errorContext, "GL: no context is current in this thread; make one current first");
+        return vtFail(error, vt_errorContext,
+                      "GL: no context is current in this thread; make one current first");
     }
     if (!isNewEnough(version)) {
         return vtFail(error, vt_errorContext,

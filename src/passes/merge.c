@@ -20,7 +20,8 @@ vtResult vtMergePass_Create(vtMergePass* pass, const vtGL* gl, vtError* error)
     return result;
 }
 
-vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers, vtError* error)
+vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers,
+                            vtError* error)
 {
     int groups = (layers + 3) / 4;
     if (!vtTexture_Resize(&pass->depths, gl, GL_RGBA16UI, width, height, groups)) {

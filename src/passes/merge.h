@@ -13,6 +13,7 @@ typedef struct vtMergePass {
 } vtMergePass;
 
 vtResult vtMergePass_Create(vtMergePass* pass, const vtGL* gl, vtError* error);
-vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers, vtError* error);
+vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers,
+                            vtError* error);
 void vtMergePass_Draw(const vtMergePass* pass, const vtGL* gl, const vtTexture* layerDepths);
 void vtMergePass_Destroy(vtMergePass* pass, const vtGL* gl);

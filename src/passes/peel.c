@@ -22,7 +22,8 @@ vtResult vtPeelPass_Create(vtPeelPass* pass, const vtGL* gl, vtError* error)
     return vtCreateProgram(gl, &programDef, &pass->program, error);
 }
 
-vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers, vtError* error)
+vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers,
+                           vtError* error)
 {
     bool changed = false;
     for (int i = 0; i < 2; ++i) {

@@ -19,7 +19,8 @@ typedef struct vtPeelPass {
 } vtPeelPass;
 
 vtResult vtPeelPass_Create(vtPeelPass* pass, const vtGL* gl, vtError* error);
-vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers, vtError* error);
+vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers,
+                           vtError* error);
 void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer* mesh);
 void vtPeelPass_Destroy(vtPeelPass* pass, const vtGL* gl);
 size_t vtPeelPass_Bytes(const vtPeelPass* pass);

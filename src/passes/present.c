@@ -25,9 +25,10 @@ vtResult vtPresentPass_SetEnvironment(vtPresentPass* pass, const vtGL* gl, const
     GLint largest = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (width > largest || height > largest) {
-        return vtFail(error, vt_errorContext,
-                      "environment: %d x %d is more than this GPU's largest texture (%d); scale the picture down",
-                      width, height, largest);
+        return vtFail(
+            error, vt_errorContext,
+            "environment: %d x %d is more than this GPU's largest texture (%d); scale the picture down",
+            width, height, largest);
     }
     vtTexture fresh = {0};
     vtTexture_Resize(&fresh, gl, GL_RGB16F, width, height, 0);

@@ -6,7 +6,8 @@
 static void frameIsOrthonormalAndLooksAtTheTarget(void** state)
 {
     (void)state;
-    const vtView views[] = {{{0.36f, 0.3f, 3.05f}, {0, 0, 0}, 45}, {{0, 5, 0}, {0, 0, 0}, 45}, {{1, -9, 2}, {1, 3, 2}, 20}};
+    const vtView views[] = {
+        {{0.36f, 0.3f, 3.05f}, {0, 0, 0}, 45}, {{0, 5, 0}, {0, 0, 0}, 45}, {{1, -9, 2}, {1, 3, 2}, 20}};
     for (int i = 0; i < 3; ++i) {
         vtCameraFrame c = vtMakeCameraFrame(&views[i]);
         assert_near(vtDot(c.right, c.up), 0.0f, 1e-6);
@@ -27,14 +28,16 @@ static bool holds(const vtFrustum* f, const vtCameraFrame* c, vtVec3 p)
 {
     vtVec3 o = vtSub(p, c->eye);
     float x = vtDot(o, c->right), y = vtDot(o, c->up), z = vtDot(o, c->forward);
-    return z > f->near && z < f->far && x > f->left * z && x < f->right * z && y > f->bottom * z && y < f->top * z;
+    return z > f->near && z < f->far && x > f->left * z && x < f->right * z && y > f->bottom * z &&
+           y < f->top * z;
 }
 
 static void layerFrustumHoldsTheWholeBox(void** state)
 {
     (void)state;
     const vtVec3 low = {-1.4f, -0.4f, -1.4f}, high = {1.4f, 0.4f, 1.4f};
-    const vtView views[] = {{{0.36f, 0.3f, 3.05f}, {0, 0, 0}, 45}, {{40, 30, -50}, {5, 5, 0}, 10}, {{0, 3, 0}, {0, 0, 0}, 90}};
+    const vtView views[] = {
+        {{0.36f, 0.3f, 3.05f}, {0, 0, 0}, 45}, {{40, 30, -50}, {5, 5, 0}, 10}, {{0, 3, 0}, {0, 0, 0}, 90}};
     for (int i = 0; i < 3; ++i) {
         vtFrustum f = vtMakeLayerFrustum(&views[i], low, high);
         vtCameraFrame c = vtMakeCameraFrame(&views[i]);
@@ -49,7 +52,8 @@ static void frustaStaySoundFromInsideTheBox(void** state)
 {
     (void)state;
     const vtVec3 low = {-1, -1, -1}, high = {1, 1, 1};
-    const vtView views[] = {{{0, 0, 0.5f}, {0, 0, 0}, 45}, {{0, 0, 9}, {0, 0, 10}, 45}, {{1, 1, 1}, {0, 0, 0}, 45}};
+    const vtView views[] = {
+        {{0, 0, 0.5f}, {0, 0, 0}, 45}, {{0, 0, 9}, {0, 0, 10}, 45}, {{1, 1, 1}, {0, 0, 0}, 45}};
     for (int i = 0; i < 3; ++i) {
         vtFrustum f = vtMakeLayerFrustum(&views[i], low, high);
         assert_true(f.near > 0.0f && f.far > f.near);

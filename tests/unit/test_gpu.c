@@ -36,13 +36,14 @@ static int tearDown(void** state)
 }
 
 // Cases are made from the pixel by the same arithmetic on both sides: a hash, then points on the sphere.
-static const vtChunk cases = {"cases", "uint hash(uint x) { x ^= x >> 16; x *= 0x7feb352du; x ^= x >> 15;"
-                                       "  x *= 0x846ca68bu; x ^= x >> 16; return x; }\n"
-                                       "float unit(uint x) { return float(hash(x) >> 8) / 16777216.0; }\n"
-                                       "vec3 onSphere(uint x) { float z = 2.0 * unit(x) - 1.0;\n"
-                                       "  float a = 6.2831853 * unit(x + 77777u);\n"
-                                       "  float r = sqrt(1.0 - z * z); return vec3(r * cos(a), z, r * sin(a)); }\n"
-                                       "uint caseIndex() { return uint(gl_FragCoord.y) * 64u + uint(gl_FragCoord.x); }\n"};
+static const vtChunk cases = {
+    "cases", "uint hash(uint x) { x ^= x >> 16; x *= 0x7feb352du; x ^= x >> 15;"
+             "  x *= 0x846ca68bu; x ^= x >> 16; return x; }\n"
+             "float unit(uint x) { return float(hash(x) >> 8) / 16777216.0; }\n"
+             "vec3 onSphere(uint x) { float z = 2.0 * unit(x) - 1.0;\n"
+             "  float a = 6.2831853 * unit(x + 77777u);\n"
+             "  float r = sqrt(1.0 - z * z); return vec3(r * cos(a), z, r * sin(a)); }\n"
+             "uint caseIndex() { return uint(gl_FragCoord.y) * 64u + uint(gl_FragCoord.x); }\n"};
 
 static uint32_t hash(uint32_t x)
 {
@@ -130,14 +131,15 @@ static void opticsAreTheSame(void** state)
 
 static void packedNormalsComeBack(void** state)
 {
-    static const vtChunk body = {"body", "layout(location = 0) out uvec4 o_result;\n"
-                                         "void main() { vec3 n = onSphere(caseIndex());\n"
-                                         "  if (caseIndex() < 6u) { n = vec3(0.0);\n"
-                                         "    n[int(caseIndex()) / 2] = caseIndex() % 2u == 0u ? 1.0 : -1.0; }\n"
-                                         "  uint bits = packNormal(n);\n"
-                                         "  vec3 c = cross(n, unpackNormal(bits));\n"
-                                         "  o_result = uvec4(floatBitsToUint(length(c)), bits,\n"
-                                         "    dot(n, unpackNormal(bits)) > 0.0 ? 1u : 0u, 0u); }\n"};
+    static const vtChunk body = {"body",
+                                 "layout(location = 0) out uvec4 o_result;\n"
+                                 "void main() { vec3 n = onSphere(caseIndex());\n"
+                                 "  if (caseIndex() < 6u) { n = vec3(0.0);\n"
+                                 "    n[int(caseIndex()) / 2] = caseIndex() % 2u == 0u ? 1.0 : -1.0; }\n"
+                                 "  uint bits = packNormal(n);\n"
+                                 "  vec3 c = cross(n, unpackNormal(bits));\n"
+                                 "  o_result = uvec4(floatBitsToUint(length(c)), bits,\n"
+                                 "    dot(n, unpackNormal(bits)) > 0.0 ? 1u : 0u, 0u); }\n"};
     static uint32_t results[4 * size * size];
     evaluate(*state, (const vtChunk* const[]){&vtChunk_octahedral, &body, NULL}, results);
     for (int i = 0; i < size * size; ++i) {

@@ -18,7 +18,8 @@ static int setUp(void** state)
     Fixture* fixture = calloc(1, sizeof *fixture);
     vtError error;
     assert_ok(vtCreateContext(vt_backendAuto, &fixture->context, &error), error);
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error), error);
+    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
+              error);
     *state = fixture;
     return 0;
 }
@@ -72,7 +73,8 @@ static vtVec3 eyeRay(const vtFrame* frame, int i, int j)
     vtVec3 right = vtNormalize(vtCross(forward, (vtVec3){0, 1, 0}));
     vtVec3 up = vtCross(right, forward);
     float t = tanf(frame->view.fovY * VT_PI / 360.0f);
-    float x = (((float)i + 0.5f) / (float)frame->width * 2.0f - 1.0f) * t * (float)frame->width / (float)frame->height;
+    float x = (((float)i + 0.5f) / (float)frame->width * 2.0f - 1.0f) * t * (float)frame->width /
+              (float)frame->height;
     float y = (1.0f - ((float)j + 0.5f) / (float)frame->height * 2.0f) * t;
     return vtNormalize(vtMulAdd(vtMulAdd(forward, x, right), y, up));
 }
@@ -162,8 +164,9 @@ static void sphereFollowsTheClosedForm(void** state)
         vtVec3 T = vtMulAdd(vtScale(I, eta), eta * c - sqrtf(1.0f - eta * eta * (1.0f - c * c)), P);
         vtVec3 Q = vtMulAdd(P, -2.0f * vtDot(P, T), T);
         float s = vtDot(Q, T);
-        vtVec3 E = vtMulAdd(vtScale(T, frame.ior), sqrtf(fmaxf(0.0f, 1.0f - frame.ior * frame.ior * (1.0f - s * s))) -
-                                                       frame.ior * s, Q);
+        vtVec3 E =
+            vtMulAdd(vtScale(T, frame.ior),
+                     sqrtf(fmaxf(0.0f, 1.0f - frame.ior * frame.ior * (1.0f - s * s))) - frame.ior * s, Q);
         ++glass;
         lost += d.x == 2.0f;
         within += d.x != 2.0f && degreesBetween(d, E) < 1.0f;
@@ -184,7 +187,8 @@ static void slabKeepsTheDirection(void** state)
         positions[3 * i + 1] = i & 2 ? 3.0f : -3.0f;
         positions[3 * i + 2] = i & 4 ? 0.2f : -0.2f;
     }
-    static const uint32_t quads[6][4] = {{4, 5, 7, 6}, {1, 0, 2, 3}, {5, 1, 3, 7}, {0, 4, 6, 2}, {6, 7, 3, 2}, {0, 1, 5, 4}};
+    static const uint32_t quads[6][4] = {{4, 5, 7, 6}, {1, 0, 2, 3}, {5, 1, 3, 7},
+                                         {0, 4, 6, 2}, {6, 7, 3, 2}, {0, 1, 5, 4}};
     float corners[6 * 6 * 3], normals[6 * 6 * 3];
     for (int q = 0, v = 0; q < 6; ++q) {
         static const int order[6] = {0, 1, 2, 0, 2, 3};
@@ -372,7 +376,8 @@ static void badFramesDrawNothing(void** state)
     vtFrame frame = smallFrame();
     frame.layers = 17;
     memset(fixture->pixels, 7, sizeof fixture->pixels);
-    assert_int_equal(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error), vt_errorArgument);
+    assert_int_equal(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error),
+                     vt_errorArgument);
     assert_int_equal(fixture->pixels[0], 7);
 }
 

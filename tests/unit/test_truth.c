@@ -32,7 +32,8 @@ static int setUp(void** state)
     vtError error;
     fixture->data = getenv("VITRINE_DATA");
     assert_ok(vtCreateContext(vt_backendAuto, &fixture->context, &error), error);
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error), error);
+    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
+              error);
     *state = fixture;
     return 0;
 }
@@ -47,12 +48,14 @@ static int tearDown(void** state)
 }
 
 /// NULL with a note where the file is absent.
-static uint8_t* readData(const Fixture* fixture, const char* folder, const char* model, const char* ending, size_t* size)
+static uint8_t* readData(const Fixture* fixture, const char* folder, const char* model, const char* ending,
+                         size_t* size)
 {
     char path[1024];
     uint8_t* bytes;
     vtError error;
-    snprintf(path, sizeof path, "%s/%s/%s.%s", fixture->data != NULL ? fixture->data : "", folder, model, ending);
+    snprintf(path, sizeof path, "%s/%s/%s.%s", fixture->data != NULL ? fixture->data : "", folder, model,
+             ending);
     if (vtReadFile(path, &bytes, size, &error) != vt_ok) {
         print_message("skipped: %s\n", error.message);
         return NULL;
@@ -71,7 +74,8 @@ static vtDirectionError measure(Fixture* fixture, int layers, const float* truth
     assert_ok(vtRenderer_DrawImage(fixture->renderer, &frame, pixels, &error), error);
     assert_ok(vtRenderer_ReadDirections(fixture->renderer, directions, &error), error);
     assert_ok(vtCompareDirections(directions, truth, side * side, &result, &error), error);
-    print_message("  %2d layers: within 1 degree %.2f %%, 5 degrees %.2f %%, median %.3f, lost %.2f %%, mask %zu pixels\n",
+    print_message("  %2d layers: within 1 degree %.2f %%, 5 degrees %.2f %%, median %.3f, lost %.2f %%, mask "
+                  "%zu pixels\n",
                   layers, 100.0 * result.within1, 100.0 * result.within5, result.median, 100.0 * result.lost,
                   result.maskErrors);
     free(pixels);
@@ -96,7 +100,9 @@ static void layeredAgreesWithCycles(void** state)
         vtModel model;
         float* truth;
         int width, height;
-        assert_ok(vtLoadModel(&(vtModelDef){.bytes = bytes, .size = size, .name = cases[i].model}, &model, &error), error);
+        assert_ok(
+            vtLoadModel(&(vtModelDef){.bytes = bytes, .size = size, .name = cases[i].model}, &model, &error),
+            error);
         assert_ok(vtDecodePfm(truthBytes, truthSize, cases[i].model, &truth, &width, &height, &error), error);
         assert_int_equal(width, side);
         assert_int_equal(height, side);
