@@ -9,7 +9,7 @@ void main()
 {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     uint odd = VT_DEPTH_NONE, even = VT_DEPTH_NONE; // the last surface seen of layers 1, 3, ... and 2, 4, ...
-    o_depths = uvec4(VT_DEPTH_NONE);
+    uvec4 depths = uvec4(VT_DEPTH_NONE); // WebGL indexes no output by a variable
     for (int layer = 0; layer < u_search.x && layer < 4 * (u_group + 1); ++layer) {
         uint depth = texelFetch(u_layerDepths, ivec3(texel, layer), 0).r;
         bool isOdd = layer % 2 == 0; // layers count from one in the paper
@@ -20,7 +20,8 @@ void main()
             even = depth;
         }
         if (layer >= 4 * u_group) {
-            o_depths[layer % 4] = depth;
+            depths[layer % 4] = depth;
         }
     }
+    o_depths = depths;
 }

@@ -438,7 +438,10 @@ vtResult openAccessor(Reader& reader, int index, Stream* stream)
     const uint64_t elementSize =
         components > 0 && componentSize > 0 ? (uint64_t)(components * componentSize) : 0;
     const uint64_t stride = view.byteStride > 0 ? view.byteStride : elementSize;
-    if (elementSize == 0 || stride < elementSize) {
+    if (elementSize == 0) {
+        return reader.damaged("accessor %d has the unknown componentType %d", index, accessor.componentType);
+    }
+    if (stride < elementSize) {
         return reader.damaged("accessor %d has elements of %d bytes every %d bytes", index, (int)elementSize,
                               (int)stride);
     }
