@@ -87,15 +87,15 @@ vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect)
     vtVec3 centre = vtScale(vtAdd(mesh->boundsMin, mesh->boundsMax), 0.5f);
     vtView view = {centre, centre, fovY};
 
-    // The distance at which every corner of the box lies inside 95 % of the frame.
+    // The distance at which every vertex lies inside 90 % of the frame.
     vtVec3 direction = vtNormalize(defaultDirection);
     view.eye = vtAdd(centre, direction);
     vtCameraFrame camera = vtMakeCameraFrame(&view);
-    float tangentY = 0.95f * tanf(view.fovY * VT_PI / 360.0f);
+    float tangentY = 0.9f * tanf(view.fovY * VT_PI / 360.0f);
     float tangentX = tangentY * aspect;
     float distance = 0.0f;
-    for (int corner = 0; corner < 8; ++corner) {
-        vtVec3 offset = vtSub(boxCorner(mesh->boundsMin, mesh->boundsMax, corner), centre);
+    for (uint32_t i = 0; i < mesh->indexCount; ++i) {
+        vtVec3 offset = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), centre);
         float x = fabsf(vtDot(offset, camera.right)), y = fabsf(vtDot(offset, camera.up));
         distance = fmaxf(distance, fmaxf(x / tangentX, y / tangentY) + vtDot(offset, direction));
     }
