@@ -91,6 +91,14 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
         vtDestroyModel(&model);
         return result;
     }
+    if (vtFindTechnique(options->technique) == vt_techniqueWyman) {
+        result = vtComputeInnerDistances(&model.mesh, error);
+        if (result != vt_ok) {
+            vtDestroyModel(&model);
+            vtDestroyEnvironment(&input->environment);
+            return result;
+        }
+    }
     printNotes(options->model, &model.mesh, options->verbose);
     input->mesh = model.mesh;
     input->ior = options->ior > 0.0f ? options->ior : model.ior > 0.0f ? model.ior : vtDefaultFrame().ior;
@@ -120,6 +128,17 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->refine = options->refine;
     frame->maxEvents = options->maxEvents;
     frame->layerSize = options->layerSize;
+    frame->transmittance = options->transmittance;
+    frame->maxTransmittance = options->maxTransmittance;
+    frame->minTransmittance = options->minTransmittance;
+    frame->power = options->power;
+    frame->wallThickness = options->wallThickness;
+    bool farthest = strcmp(options->backSurface, "farthest") == 0;
+    if (!farthest && strcmp(options->backSurface, "second") != 0) {
+        return vtFail(error, vt_errorArgument, "--back-surface is '%s'; it must be second or farthest",
+                      options->backSurface);
+    }
+    frame->backSurface = farthest ? vt_backFarthest : vt_backSecond;
 
     vtView framed = vtFrameMesh(&input->mesh, options->fov, (float)frame->width / (float)frame->height);
     vtVec3 target = options->hasTarget ? options->target : framed.target;

@@ -21,7 +21,7 @@ static void printList(void)
     printf("techniques:\n");
     for (int i = 0; i < vt_techniqueCount; ++i) {
         const vtTechniqueInfo* info = vtTechnique_Info((vtTechnique)i);
-        printf("  %-14s %s\n  %-14s %s\n", info->id, info->summary, "", info->source);
+        printf("  %-14s %s\n  %-14s %s, %d\n", info->id, info->summary, "", info->source, info->year);
     }
     printf("shapes:\n");
     for (int i = 0; vtShapeName(i) != NULL; ++i) {

@@ -14,7 +14,9 @@ typedef struct vtOptions {
     const char* backend;
     const char* directions;
     const char* layerSheet;
+    const char* backSurface;
     float ior, fov;
+    float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
     vtVec3 camera, target;
     bool hasCamera, hasTarget;
     int size[2];

@@ -9,6 +9,7 @@
 #include "context.h"
 #include "files.h"
 #include "load.h"
+#include "technique.h"
 
 /// A file to be written once everything has been drawn.
 typedef struct Output {
@@ -51,20 +52,25 @@ static vtResult readDirections(vtRenderer* renderer, const vtFrame* frame, Outpu
 static vtResult drawLayerSheet(vtRenderer* renderer, const vtFrame* frame, Output* output, vtError* error)
 {
     vtRendererInfo info = vtRenderer_Info(renderer);
+    const int layers = vtFrame_LayerCount(frame);
+    if (layers == 0) {
+        return vtFail(error, vt_errorArgument, "layer sheet: technique '%s' peels no layers",
+                      vtTechnique_Info(frame->technique)->id);
+    }
     vtFrame tile = *frame;
     tile.layerSize = info.layerWidth > info.layerHeight ? info.layerWidth : info.layerHeight;
     tile.width = info.layerWidth;
     tile.height = info.layerHeight;
-    const size_t tileRow = 4 * (size_t)tile.width, sheetRow = tileRow * (size_t)frame->layers;
+    const size_t tileRow = 4 * (size_t)tile.width, sheetRow = tileRow * (size_t)layers;
     uint8_t* pixels = malloc(tileRow * (size_t)tile.height);
     uint8_t* sheet = malloc(2 * sheetRow * (size_t)tile.height);
     vtResult result = vt_ok;
     if (pixels == NULL || sheet == NULL) {
-        result = vtFail(error, vt_errorMemory, "layer sheet: out of memory for %d layers", frame->layers);
+        result = vtFail(error, vt_errorMemory, "layer sheet: out of memory for %d layers", layers);
     }
-    for (int i = 0; i < 2 * frame->layers && result == vt_ok; ++i) {
-        tile.layer = i % frame->layers;
-        bool isDepth = i < frame->layers;
+    for (int i = 0; i < 2 * layers && result == vt_ok; ++i) {
+        tile.layer = i % layers;
+        bool isDepth = i < layers;
         tile.output = isDepth ? vt_outputLayerDepth : vt_outputLayerNormal;
         result = vtRenderer_DrawImage(renderer, &tile, pixels, error);
         uint8_t* corner =
@@ -74,8 +80,8 @@ static vtResult drawLayerSheet(vtRenderer* renderer, const vtFrame* frame, Outpu
         }
     }
     if (result == vt_ok) {
-        result = vtEncodePng(sheet, 4, tile.width * frame->layers, 2 * tile.height, &output->bytes,
-                             &output->size, error);
+        result =
+            vtEncodePng(sheet, 4, tile.width * layers, 2 * tile.height, &output->bytes, &output->size, error);
     }
     free(pixels);
     free(sheet);
@@ -100,7 +106,7 @@ static vtResult drawAll(const vtOptions* options, const vtInput* input, vtRender
         vtRendererInfo info = vtRenderer_Info(renderer);
         fprintf(stderr, "vitrine: %s, %s\n", info.device, info.version);
         fprintf(stderr, "vitrine: ior %g, %d layers of %d x %d, %.1f MB of textures, %.1f MB of mesh\n",
-                (double)frame.ior, frame.layers, info.layerWidth, info.layerHeight,
+                (double)frame.ior, vtFrame_LayerCount(&frame), info.layerWidth, info.layerHeight,
                 (double)info.textureBytes / 1e6, (double)info.meshBytes / 1e6);
     }
     if (result == vt_ok && options->directions != NULL) {

@@ -1,5 +1,6 @@
 // From paths to a picture: each direction looks up the environment. Also the views for analysis.
 uniform usampler2D u_paths;
+uniform usampler2D u_light;
 uniform sampler2D u_environment;
 uniform usampler2DArray u_layerDepths;
 uniform usampler2DArray u_layerNormals;
@@ -19,7 +20,10 @@ vec3 pictureColor(uvec4 path)
     if (int(path.w) == VT_PATH_BACKGROUND) {
         direction = cameraDirection(pictureTangent(gl_FragCoord.xy));
     }
-    return linearToSrgb(environmentRadiance(u_output.z, u_environment, direction));
+    vec3 behind = environmentRadiance(u_output.z, u_environment, direction);
+    uvec2 light = texelFetch(u_light, ivec2(gl_FragCoord.xy), 0).rg;
+    vec2 first = unpackHalf2x16(light.x);
+    return linearToSrgb(behind * first.x + vec3(first.y, unpackHalf2x16(light.y)));
 }
 
 vec3 analysisColor(uvec4 path)

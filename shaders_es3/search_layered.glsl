@@ -18,12 +18,6 @@ const float FIRST_STEP = 0.1; // of a linear step: clears the surface that the r
 const float BOX_MARGIN = 4.0; // texels at the far end
 const int SPARE_STEPS = 16;   // faults passed on the way do not use up the linear steps
 
-struct SurfaceHit {
-    vec3 position; // world
-    vec3 normal;   // outward, interpolated
-    vec3 flatNormal;
-};
-
 // Distance along the ray to where it leaves the object's box, widened by a few texels: a face of the object
 // that lies in a face of its box is found only once the ray is behind the depth of the texel there.
 float boxExit(vec3 origin, vec3 direction)

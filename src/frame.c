@@ -1,6 +1,7 @@
 // Defaults and ranges of a frame: the one place that knows them.
 #include "base/error.h"
 #include "base/math.h"
+#include "technique.h"
 
 vtFrame vtDefaultFrame(void)
 {
@@ -8,6 +9,10 @@ vtFrame vtDefaultFrame(void)
         .view = {.eye = {0.36f, 0.3f, 3.05f}, .target = {0.0f, 0.0f, 0.0f}, .fovY = 45.0f},
         .technique = vt_techniqueLayered,
         .ior = 1.5f,
+        .transmittance = 0.8f,
+        .maxTransmittance = 0.95f,
+        .minTransmittance = 0.2f,
+        .power = 3.0f,
         .layers = 4,
         .steps = 50,
         .refine = 8,
@@ -40,17 +45,22 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
     if (frame->output < vt_outputPicture || frame->output > vt_outputLayerNormal) {
         return vtFail(error, vt_errorArgument, "output %d is not one of vtOutput", (int)frame->output);
     }
-    const vtTechniqueInfo* info = vtTechnique_Info(technique);
     const struct {
         const char* field;
         double value, low, high;
     } ranges[] = {
         {"field of view", frame->view.fovY, 1, 170},
         {"index of refraction", frame->ior, 1, 4},
-        {"layers", frame->layers, info->minLayers, info->maxLayers},
+        {"layers", frame->layers, 1, VT_MAX_LAYERS},
         {"steps", frame->steps, 1, VT_MAX_STEPS},
         {"refine", frame->refine, 0, VT_MAX_REFINE},
         {"max-events", frame->maxEvents, 1, VT_MAX_EVENTS},
+        {"transmittance", frame->transmittance, 0, 1},
+        {"max-transmittance", frame->maxTransmittance, 0, 1},
+        {"min-transmittance", frame->minTransmittance, 0, frame->maxTransmittance},
+        {"power", frame->power, 0, 100},
+        {"wall-thickness", frame->wallThickness, 0, 1e6},
+        {"back-surface", frame->backSurface, vt_backSecond, vt_backFarthest},
         {"width", frame->width, 1, 16384},
         {"height", frame->height, 1, 16384},
         {"layer-size", frame->layerSize, frame->layerSize == 0 ? 0 : 16, 8192},
@@ -60,9 +70,14 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
             return vt_errorArgument;
         }
     }
-    if (frame->output >= vt_outputLayerDepth && (frame->layer < 0 || frame->layer >= frame->layers)) {
+    const int layers = vtFrame_LayerCount(frame);
+    if (frame->output >= vt_outputLayerDepth && layers == 0) {
+        return vtFail(error, vt_errorArgument, "technique '%s' peels no layers to be shown",
+                      vtTechnique_Info(technique)->id);
+    }
+    if (frame->output >= vt_outputLayerDepth && (frame->layer < 0 || frame->layer >= layers)) {
         return vtFail(error, vt_errorArgument, "layer is %d; with %d layers it must be from 0 to %d",
-                      frame->layer, frame->layers, frame->layers - 1);
+                      frame->layer, layers, layers - 1);
     }
     if (!isFinite(frame->view.eye) || !isFinite(frame->view.target)) {
         return vtFail(error, vt_errorArgument, "the camera's position and target must be finite numbers");

@@ -121,6 +121,11 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
     return result;
 }
 
+static bool drawsFarthest(const vtFrame* frame)
+{
+    return vtTechnique_Row(frame->technique)->innerDistances && frame->backSurface == vt_backFarthest;
+}
+
 /// Layer textures as long on their longer side as asked, in the shape of their frustum.
 static void chooseLayerSize(const vtFrame* frame, const vtFrustum* frustum, int* width, int* height)
 {
@@ -163,6 +168,32 @@ static void setCamera(vtFrameUniforms* uniforms, const vtView* view)
     setVec4(uniforms->eye, camera.eye.x, camera.eye.y, camera.eye.z, 1.0f);
 }
 
+static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
+                              vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    const int layers = vtFrame_LayerCount(frame);
+    vtResult result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height, error);
+    if (result == vt_ok && row->surface) {
+        result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
+                                      row->innerDistances, error);
+    }
+    if (result == vt_ok && layers > 0) {
+        result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, layers, error);
+    }
+    if (result == vt_ok && row->merge) {
+        result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, layers, error);
+    }
+    if (result == vt_ok && drawsFarthest(frame)) {
+        result = vtPeelPass_PrepareFarthest(&renderer->peel, gl, error);
+    }
+    if (result == vt_ok) {
+        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, error);
+    }
+    return result;
+}
+
 /// Works out the frame's numbers, sizes every target and uploads the uniform block.
 static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtError* error)
 {
@@ -170,30 +201,24 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtError
     const vtVec3 low = renderer->boundsMin, high = renderer->boundsMax;
     float aspect = (float)frame->width / (float)frame->height;
     vtFrustum picture = vtMakePictureFrustum(&frame->view, aspect, low, high);
-    vtFrustum layers = vtMakeLayerFrustum(&frame->view, low, high);
-    int layerWidth, layerHeight;
-    chooseLayerSize(frame, &layers, &layerWidth, &layerHeight);
-
-    vtResult result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height, error);
-    if (result == vt_ok) {
-        result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, frame->layers, error);
+    vtFrustum layers = picture;
+    int layerWidth = frame->width, layerHeight = frame->height;
+    if (vtTechnique_Row(frame->technique)->layerSpace == vt_layersOfObject) {
+        layers = vtMakeLayerFrustum(&frame->view, low, high);
+        chooseLayerSize(frame, &layers, &layerWidth, &layerHeight);
     }
-    if (result == vt_ok) {
-        result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, frame->layers, error);
-    }
-    if (result == vt_ok) {
-        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height, error);
-    }
-    if (result == vt_ok) {
-        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, error);
-    }
+    vtResult result = resizeTargets(renderer, frame, layerWidth, layerHeight, error);
     if (result != vt_ok) {
         return result;
     }
 
+    vtVec3 extent = vtSub(high, low);
+    float wall = frame->wallThickness > 0.0f ? frame->wallThickness
+                                             : 0.06f * fmaxf(extent.x, fmaxf(extent.y, extent.z));
     vtFrameUniforms uniforms = {
-        .optics = {frame->ior},
-        .search = {frame->layers, frame->steps, frame->refine, frame->maxEvents},
+        .optics = {frame->ior, frame->transmittance},
+        .kay = {frame->maxTransmittance, frame->minTransmittance, frame->power, wall},
+        .search = {vtFrame_LayerCount(frame), frame->steps, frame->refine, frame->maxEvents},
         .size = {frame->width, frame->height, layerWidth, layerHeight},
         .output = {frame->output, frame->layer, renderer->environment},
     };
@@ -224,27 +249,45 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* er
 {
     assert(renderer->mesh.indexCount > 0 && "set a mesh before drawing");
     vtResult result = vtValidateFrame(frame, error);
-    if (result == vt_ok) {
-        result = prepareFrame(renderer, frame, error);
+    if (result != vt_ok) {
+        return result;
     }
+    const vtGL* gl = &renderer->gl;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    if (row->innerDistances && renderer->mesh.distances == 0) {
+        return vtFail(
+            error, vt_errorArgument,
+            "technique '%s' needs inner distances; call vtComputeInnerDistances before vtRenderer_SetMesh",
+            row->info.id);
+    }
+    result = prepareFrame(renderer, frame, error);
     if (result != vt_ok) {
         return result;
     }
 
-    const vtGL* gl = &renderer->gl;
     resetState(gl);
-    vtSurfacePass_Draw(&renderer->surface, gl, &renderer->mesh);
-    vtPeelPass_Draw(&renderer->peel, gl, &renderer->mesh);
-
+    if (row->surface) {
+        vtSurfacePass_Draw(&renderer->surface, gl, &renderer->mesh, row->innerDistances);
+    }
+    if (drawsFarthest(frame)) {
+        vtPeelPass_DrawFarthest(&renderer->peel, gl, &renderer->mesh);
+    } else if (row->layers != 0) {
+        vtPeelPass_Draw(&renderer->peel, gl, &renderer->mesh);
+    }
     gl->BindVertexArray(renderer->emptyVertexArray);
-    vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
+    if (row->merge) {
+        vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
+    }
     vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
                        &(vtRefractInputs){.surfaceDepth = &renderer->surface.depth,
                                           .surfaceNormals = &renderer->surface.normals,
-                                          .mergedDepths = &renderer->merge.depths,
-                                          .layerNormals = &renderer->peel.normals});
+                                          .innerDistances = &renderer->surface.distances,
+                                          .layerDepths = &renderer->peel.depths,
+                                          .layerNormals = &renderer->peel.normals,
+                                          .mergedDepths = &renderer->merge.depths});
     vtPresentPass_Draw(&renderer->present, gl,
                        &(vtPresentInputs){.paths = &renderer->refract.paths,
+                                          .light = &renderer->refract.light,
                                           .layerDepths = &renderer->peel.depths,
                                           .layerNormals = &renderer->peel.normals},
                        frame->framebuffer, frame->width, frame->height);
@@ -328,6 +371,7 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
         .version = (const char*)gl->GetString(GL_VERSION),
         .textureBytes = vtSurfacePass_Bytes(&renderer->surface) + vtPeelPass_Bytes(&renderer->peel) +
                         vtTexture_Bytes(&renderer->merge.depths) + vtTexture_Bytes(&renderer->refract.paths) +
+                        vtTexture_Bytes(&renderer->refract.light) +
                         vtTexture_Bytes(&renderer->present.environment) + vtTexture_Bytes(&renderer->image),
         .meshBytes = renderer->mesh.bytes,
         .layerWidth = renderer->peel.depths.width,

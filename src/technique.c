@@ -7,21 +7,123 @@
 
 #include "shaders.h"
 
+// The texture units of the refract pass, the same for every technique (passes/refract.c binds them).
+#define VT_REFRACT_SAMPLERS                                                                                  \
+    {                                                                                                        \
+        "u_surfaceDepth", "u_surfaceNormals", "u_innerDistances", "u_layerDepths", "u_layerNormals",         \
+            "u_mergedDepths"                                                                                 \
+    }
+
 static const vtTechniqueRow rows[vt_techniqueCount] = {
+    [vt_techniqueKayLinear] =
+        {
+            .info = {.id = "kay-linear",
+                     .summary =
+                         "surfaces blended back to front, the same transmittance everywhere; no refraction",
+                     .source = "Kay & Greenberg, Transparency for Computer Synthesized Images, equation 1",
+                     .year = 1979,
+                     .refracts = false},
+            .layers = VT_LAYERS_OF_FRAME,
+            .layerSpace = vt_layersOfPicture,
+            .refract = {.name = "kay-linear",
+                        .vertex = {&vtChunk_screen_vert},
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_kay,
+                                     &vtChunk_refract_kay_linear_frag},
+                        .samplers = VT_REFRACT_SAMPLERS},
+        },
+    [vt_techniqueKayNonlinear] =
+        {
+            .info = {.id = "kay-nonlinear",
+                     .summary = "as before, less transparent where the surface turns away, highlights added",
+                     .source = "Kay & Greenberg, Transparency for Computer Synthesized Images, equation 2",
+                     .year = 1979,
+                     .refracts = false},
+            .layers = VT_LAYERS_OF_FRAME,
+            .layerSpace = vt_layersOfPicture,
+            .refract = {.name = "kay-nonlinear",
+                        .vertex = {&vtChunk_screen_vert},
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_kay, &vtChunk_transparency,
+                                     &vtChunk_refract_kay_nonlinear_frag},
+                        .samplers = VT_REFRACT_SAMPLERS},
+        },
+    [vt_techniqueKayThickness] =
+        {
+            .info = {.id = "kay-thickness",
+                     .summary = "every surface a thin wall that shifts what lies behind it",
+                     .source = "Kay & Greenberg, Transparency for Computer Synthesized Images, section 4",
+                     .year = 1979,
+                     .refracts = true},
+            .layers = VT_LAYERS_OF_FRAME,
+            .layerSpace = vt_layersOfPicture,
+            .refract = {.name = "kay-thickness",
+                        .vertex = {&vtChunk_screen_vert},
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_kay, &vtChunk_transparency,
+                                     &vtChunk_refract_kay_thickness_frag},
+                        .samplers = VT_REFRACT_SAMPLERS},
+        },
+    [vt_techniqueSingle] =
+        {
+            .info = {.id = "single",
+                     .summary = "one refraction at the first surface, then the environment",
+                     .source = "common practice; the first column of Wang & Chi's comparisons",
+                     .year = 2003,
+                     .refracts = true},
+            .surface = true,
+            .refract = {.name = "single",
+                        .vertex = {&vtChunk_screen_vert},
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
+                                     &vtChunk_first_surface, &vtChunk_refract_single_frag},
+                        .samplers = VT_REFRACT_SAMPLERS},
+        },
+    [vt_techniqueWyman] =
+        {
+            .info = {.id = "wyman",
+                     .summary = "two refractions, the distance between them guessed from two known ones",
+                     .source = "Wyman, An Approximate Image-Space Approach for Interactive Refraction",
+                     .year = 2005,
+                     .refracts = true},
+            .surface = true,
+            .innerDistances = true,
+            .layers = 2,
+            .refract = {.name = "wyman",
+                        .vertex = {&vtChunk_screen_vert},
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
+                                     &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_second_layer,
+                                     &vtChunk_refract_wyman_frag},
+                        .samplers = VT_REFRACT_SAMPLERS},
+        },
+    [vt_techniqueOliveira] =
+        {
+            .info = {.id = "oliveira",
+                     .summary = "two refractions, the back side found by a search in its depth",
+                     .source = "Oliveira & Brauwers, Real-Time Refraction Through Deformable Objects",
+                     .year = 2007,
+                     .refracts = true},
+            .surface = true,
+            .layers = 2,
+            .refract = {.name = "oliveira",
+                        .vertex = {&vtChunk_screen_vert},
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
+                                     &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_second_layer,
+                                     &vtChunk_refract_oliveira_frag},
+                        .samplers = VT_REFRACT_SAMPLERS},
+        },
     [vt_techniqueLayered] =
         {
             .info = {.id = "layered",
-                     .summary =
-                         "N peeled layers searched in image space, refraction and total internal reflection",
-                     .source = "Wang & Chi, Image Space Real-time Multi-refraction Technology, 2014",
-                     .minLayers = 1,
-                     .maxLayers = VT_MAX_LAYERS},
-            .refract = {.name = "refract layered",
+                     .summary = "N peeled layers searched for every refraction and total internal reflection",
+                     .source = "Wang & Chi, Image Space Real-time Multi-refraction Technology",
+                     .year = 2014,
+                     .refracts = true},
+            .surface = true,
+            .layers = VT_LAYERS_OF_FRAME,
+            .merge = true,
+            .refract = {.name = "layered",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_optics, &vtChunk_octahedral, &vtChunk_layers,
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
+                                     &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_layers,
                                      &vtChunk_search_layered, &vtChunk_refract_layered_frag},
-                        .samplers = {"u_surfaceDepth", "u_surfaceNormals", "u_mergedDepths",
-                                     "u_layerNormals"}},
+                        .samplers = VT_REFRACT_SAMPLERS},
         },
 };
 
@@ -29,6 +131,12 @@ const vtTechniqueRow* vtTechnique_Row(vtTechnique technique)
 {
     assert(technique >= 0 && technique < vt_techniqueCount);
     return &rows[technique];
+}
+
+int vtFrame_LayerCount(const vtFrame* frame)
+{
+    int layers = vtTechnique_Row(frame->technique)->layers;
+    return layers == VT_LAYERS_OF_FRAME ? frame->layers : layers;
 }
 
 const vtTechniqueInfo* vtTechnique_Info(vtTechnique technique)

@@ -3,10 +3,27 @@
 #include "gl/program.h"
 #include "vitrine.h"
 
-/// A rung of the ladder: what users read of it, and what its refract pass is made of.
+/// The frustum that a technique's layers lie in.
+typedef enum vtLayerSpace {
+    vt_layersOfObject,  ///< fitted to the object: rays do not leave it
+    vt_layersOfPicture, ///< the picture's own, pixel on pixel
+} vtLayerSpace;
+
+/// Number of layers as the frame says.
+#define VT_LAYERS_OF_FRAME -1
+
+/// A rung of the ladder: what users read of it, the passes it needs, and what its refract pass is made of.
 typedef struct vtTechniqueRow {
     vtTechniqueInfo info;
+    bool surface;        ///< the first surface, exact
+    bool innerDistances; ///< per-vertex distance inwards, with it
+    int layers;          ///< layers peeled: 0, a fixed number or VT_LAYERS_OF_FRAME
+    vtLayerSpace layerSpace;
+    bool merge; ///< layers merged and gathered four to a texel
     vtProgramDef refract;
 } vtTechniqueRow;
 
 const vtTechniqueRow* vtTechnique_Row(vtTechnique technique);
+
+/// Layers that the frame's technique peels.
+int vtFrame_LayerCount(const vtFrame* frame);

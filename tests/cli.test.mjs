@@ -104,7 +104,7 @@ describe('words', () => {
     assert.match(vitrine(['--help']).text, /vitrine render MODEL -o OUT\.png/);
     assert.match(vitrine(['--version']).text, /^vitrine \d+\.\d+\.\d+\n$/);
     const list = vitrine(['list']).text;
-    for (const word of ['layered', 'sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'checker', 'studio', 'sky']) {
+    for (const word of ['kay-linear', 'kay-nonlinear', 'kay-thickness', 'single', 'wyman', 'oliveira', 'layered', 'sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'checker', 'studio', 'sky']) {
       assert.ok(list.includes(word), word);
     }
     const help = vitrine(['render', '--help']);
@@ -302,7 +302,12 @@ describe('golden images', async () => {
     'diamond-studio': ['diamond', '-e', 'studio', '--ior', '2.4', '--max-events', '16'],
     'knot-analysis': ['knot', '--analysis'],
     'torus-two-layers': ['torus', '-e', 'checker', '--layers', '2'],
+    'wyman-farthest': ['knot', '-e', 'sky', '-t', 'wyman', '--back-surface', 'farthest'],
   };
+  // One baseline for every row of the technique table.
+  const list = vitrine(['list']).text.split('shapes:')[0];
+  const techniques = [...list.matchAll(/^  ([a-z-]+) /gm)].map((match) => match[1]);
+  for (const id of techniques) cases[`technique-${id}`] = ['knot', '-e', 'sky', '-t', id];
   for (const [name, args] of Object.entries(cases)) {
     test(name, { skip: libraries ? false : 'npm packages are not installed (tests/package.json)' }, async () => {
       const { PNG } = await import('pngjs');

@@ -1,5 +1,5 @@
-// Geometric optics at one surface on the CPU. The same names and numbers as shaders_es3/optics.glsl; a
-// change here is a change there (tests/unit/test_gpu.c compares them).
+// Geometric optics at one surface on the CPU. The same names and numbers as shaders_es3/optics.glsl
+// and transparency.glsl; a change here is a change there (tests/unit/test_gpu.c compares them).
 #pragma once
 
 #include "base/math.h"
@@ -36,4 +36,21 @@ static inline vtVec3 vtMeetSurface(vtVec3 I, vtVec3 N, vtVec3 G, float ior, bool
         *inside = !*inside;
     }
     return T;
+}
+
+/// Kay & Greenberg 1979, equation 2. cosine: |Nz|, the part of the unit normal along the view.
+static inline float vtNonlinearTransmittance(float cosine, float maximum, float minimum, float power)
+{
+    return (maximum - minimum) * (1.0f - powf(1.0f - vtClamp(cosine, 0.0f, 1.0f), power)) + minimum;
+}
+
+/// Kay & Greenberg 1979, equations 4 and 5 and the way through a wall of constant thickness along its normal,
+/// for a ray along +z that meets the unit normal N (N.z <= 0). Gives the path's length; shift is its x and y.
+static inline float vtWallPath(vtVec3 N, float ior, float thickness, float shift[2])
+{
+    float cosine = sqrtf(ior * ior - 1.0f + N.z * N.z) / ior;
+    float path = thickness / fmaxf(cosine, 1e-3f);
+    shift[0] = path * (-N.z * N.x / ior - cosine * N.x);
+    shift[1] = path * (-N.z * N.y / ior - cosine * N.y);
+    return path;
 }

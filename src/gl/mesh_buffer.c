@@ -21,6 +21,15 @@ vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh*
     gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, (const void*)0);
     gl->EnableVertexAttribArray(1);
     gl->VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, (const void*)(uintptr_t)attributeBytes);
+    if (mesh->innerDistances != NULL) {
+        gl->GenBuffers(1, &buffer->distances);
+        gl->BindBuffer(GL_ARRAY_BUFFER, buffer->distances);
+        gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(attributeBytes / 3), mesh->innerDistances,
+                       GL_STATIC_DRAW);
+        gl->EnableVertexAttribArray(2);
+        gl->VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, 0, (const void*)0);
+        buffer->bytes += attributeBytes / 3;
+    }
     gl->GenBuffers(1, &buffer->indices);
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer->indices);
     gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)indexBytes, mesh->indices, GL_STATIC_DRAW);
@@ -45,6 +54,7 @@ void vtMeshBuffer_Destroy(vtMeshBuffer* buffer, const vtGL* gl)
     if (buffer->vertexArray != 0) {
         gl->DeleteVertexArrays(1, &buffer->vertexArray);
         gl->DeleteBuffers(1, &buffer->vertices);
+        gl->DeleteBuffers(1, &buffer->distances);
         gl->DeleteBuffers(1, &buffer->indices);
     }
     *buffer = (vtMeshBuffer){0};

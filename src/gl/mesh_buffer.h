@@ -2,9 +2,10 @@
 
 #include "gl/gl.h"
 
-/// A mesh on the GPU: indexed triangles, position at attribute 0, normal at 1.
+/// A mesh on the GPU: indexed triangles, position at attribute 0, normal at 1, inner distance at 2
+/// where the mesh has it.
 typedef struct vtMeshBuffer {
-    GLuint vertexArray, vertices, indices;
+    GLuint vertexArray, vertices, distances, indices;
     GLsizei indexCount;
     size_t bytes;
 } vtMeshBuffer;

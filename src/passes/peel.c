@@ -16,10 +16,24 @@ static const vtProgramDef programDef = {
     .samplers = {"u_previousDepth"},
 };
 
+static const vtProgramDef farthestProgramDef = {
+    .name = "farthest",
+    .vertex = {&vtChunk_layer, &vtChunk_mesh_vert},
+    .fragment = {&vtChunk_farthest, &vtChunk_octahedral, &vtChunk_surface_attributes, &vtChunk_peel_frag},
+};
+
 vtResult vtPeelPass_Create(vtPeelPass* pass, const vtGL* gl, vtError* error)
 {
     *pass = (vtPeelPass){0};
     return vtCreateProgram(gl, &programDef, &pass->program, error);
+}
+
+vtResult vtPeelPass_PrepareFarthest(vtPeelPass* pass, const vtGL* gl, vtError* error)
+{
+    if (pass->farthestProgram != 0) {
+        return vtSucceed(error);
+    }
+    return vtCreateProgram(gl, &farthestProgramDef, &pass->farthestProgram, error);
 }
 
 vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers,
@@ -45,12 +59,22 @@ vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int heig
     return result;
 }
 
-void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer* mesh)
+/// Draws the mesh into one layer, cleared before.
+static void drawLayer(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer* mesh, int layer,
+                      float clearDepth)
 {
-    const float near = 0.0f, far = 1.0f;
     const GLuint noNormal[4] = {VT_NO_NORMAL, VT_NO_NORMAL, 0, 0};
     const GLuint noDepth[4] = {VT_DEPTH_NONE, 0, 0, 0};
+    vtBindFramebuffer(gl, pass->framebuffers[layer], pass->depths.width, pass->depths.height);
+    gl->ClearBufferfv(GL_DEPTH, 0, &clearDepth);
+    gl->ClearBufferuiv(GL_COLOR, 0, noNormal);
+    gl->ClearBufferuiv(GL_COLOR, 1, noDepth);
+    vtMeshBuffer_Draw(mesh, gl);
+}
 
+void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer* mesh)
+{
+    const float near = 0.0f;
     gl->Enable(GL_DEPTH_TEST);
     gl->UseProgram(pass->program);
 
@@ -59,13 +83,19 @@ void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer*
     gl->ClearBufferfv(GL_DEPTH, 0, &near);
 
     for (int layer = 0; layer < pass->depths.layers; ++layer) {
-        gl->BindFramebuffer(GL_FRAMEBUFFER, pass->framebuffers[layer]);
         vtTexture_Bind(&pass->depthBuffers[(layer + 1) % 2], gl, 0);
-        gl->ClearBufferfv(GL_DEPTH, 0, &far);
-        gl->ClearBufferuiv(GL_COLOR, 0, noNormal);
-        gl->ClearBufferuiv(GL_COLOR, 1, noDepth);
-        vtMeshBuffer_Draw(mesh, gl);
+        drawLayer(pass, gl, mesh, layer, 1.0f);
     }
+    gl->Disable(GL_DEPTH_TEST);
+}
+
+void vtPeelPass_DrawFarthest(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer* mesh)
+{
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthFunc(GL_GREATER);
+    gl->UseProgram(pass->farthestProgram);
+    drawLayer(pass, gl, mesh, 1, 0.0f);
+    gl->DepthFunc(GL_LESS);
     gl->Disable(GL_DEPTH_TEST);
 }
 
@@ -78,6 +108,7 @@ void vtPeelPass_Destroy(vtPeelPass* pass, const vtGL* gl)
     vtTexture_Destroy(&pass->depths, gl);
     vtTexture_Destroy(&pass->normals, gl);
     gl->DeleteProgram(pass->program);
+    gl->DeleteProgram(pass->farthestProgram);
     *pass = (vtPeelPass){0};
 }
 

@@ -7,7 +7,7 @@ static const vtProgramDef programDef = {
     .name = "present",
     .vertex = {&vtChunk_screen_vert},
     .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_present_frag},
-    .samplers = {"u_paths", "u_environment", "u_layerDepths", "u_layerNormals"},
+    .samplers = {"u_paths", "u_light", "u_environment", "u_layerDepths", "u_layerNormals"},
 };
 
 vtResult vtPresentPass_Create(vtPresentPass* pass, const vtGL* gl, vtError* error)
@@ -54,9 +54,12 @@ void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPrese
     vtBindFramebuffer(gl, framebuffer, width, height);
     gl->UseProgram(pass->program);
     vtTexture_Bind(inputs->paths, gl, 0);
-    vtTexture_Bind(&pass->environment, gl, 1);
-    vtTexture_Bind(inputs->layerDepths, gl, 2);
-    vtTexture_Bind(inputs->layerNormals, gl, 3);
+    vtTexture_Bind(inputs->light, gl, 1);
+    vtTexture_Bind(&pass->environment, gl, 2);
+    if (inputs->layerDepths->name != 0) {
+        vtTexture_Bind(inputs->layerDepths, gl, 3);
+        vtTexture_Bind(inputs->layerNormals, gl, 4);
+    }
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

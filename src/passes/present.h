@@ -13,6 +13,7 @@ typedef struct vtPresentPass {
 /// What the picture is made from.
 typedef struct vtPresentInputs {
     const vtTexture* paths;
+    const vtTexture* light;
     const vtTexture* layerDepths;
     const vtTexture* layerNormals;
 } vtPresentInputs;

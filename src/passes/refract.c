@@ -12,11 +12,13 @@ vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique 
 
 vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height, vtError* error)
 {
-    if (!vtTexture_Resize(&pass->paths, gl, GL_RGBA32UI, width, height, 0)) {
+    bool changed = vtTexture_Resize(&pass->paths, gl, GL_RGBA32UI, width, height, 0);
+    changed |= vtTexture_Resize(&pass->light, gl, GL_RG32UI, width, height, 0);
+    if (!changed) {
         return vtSucceed(error);
     }
-    vtAttachment color = {&pass->paths, 0};
-    return vtMakeFramebuffer(gl, "refract", &color, 1, NULL, &pass->framebuffer, error);
+    vtAttachment colors[] = {{&pass->paths, 0}, {&pass->light, 0}};
+    return vtMakeFramebuffer(gl, "refract", colors, 2, NULL, &pass->framebuffer, error);
 }
 
 void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
@@ -24,10 +26,14 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
 {
     vtBindFramebuffer(gl, pass->framebuffer, pass->paths.width, pass->paths.height);
     gl->UseProgram(pass->programs[technique]);
-    vtTexture_Bind(inputs->surfaceDepth, gl, 0);
-    vtTexture_Bind(inputs->surfaceNormals, gl, 1);
-    vtTexture_Bind(inputs->mergedDepths, gl, 2);
-    vtTexture_Bind(inputs->layerNormals, gl, 3);
+    // Units as VT_REFRACT_SAMPLERS in technique.c names them.
+    const vtTexture* units[] = {inputs->surfaceDepth, inputs->surfaceNormals, inputs->innerDistances,
+                                inputs->layerDepths,  inputs->layerNormals,   inputs->mergedDepths};
+    for (int unit = 0; unit < 6; ++unit) {
+        if (units[unit]->name != 0) {
+            vtTexture_Bind(units[unit], gl, unit);
+        }
+    }
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -38,5 +44,6 @@ void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl)
     }
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtTexture_Destroy(&pass->paths, gl);
+    vtTexture_Destroy(&pass->light, gl);
     *pass = (vtRefractPass){0};
 }

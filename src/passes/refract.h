@@ -8,15 +8,18 @@
 typedef struct vtRefractPass {
     GLuint programs[vt_techniqueCount]; ///< compiled when first used
     GLuint framebuffer;
+    vtTexture light; ///< RG32UI: four halves, transmittance and light added on the way (red, green, blue)
     vtTexture paths; ///< RGBA32UI: the bits of the last direction (three floats), state (VT_PATH_...)
 } vtRefractPass;
 
-/// What a technique may read.
+/// What a technique may read; those it needs (its row's samplers, by these names) must exist.
 typedef struct vtRefractInputs {
     const vtTexture* surfaceDepth;
     const vtTexture* surfaceNormals;
-    const vtTexture* mergedDepths;
+    const vtTexture* innerDistances;
+    const vtTexture* layerDepths;
     const vtTexture* layerNormals;
+    const vtTexture* mergedDepths;
 } vtRefractInputs;
 
 vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error);

@@ -408,5 +408,6 @@ void vtDestroyMesh(vtMesh* mesh)
     free(mesh->positions);
     free(mesh->normals);
     free(mesh->indices);
+    free(mesh->innerDistances);
     *mesh = (vtMesh){0};
 }

@@ -94,6 +94,33 @@ static void trianglesNormalDecidesWhereTheOtherFails(void** state)
     assert_true(R.y < 0.0f);
 }
 
+// Kay & Greenberg's equations, by hand.
+static void transparencyFollowsKayAndGreenberg(void** state)
+{
+    (void)state;
+    // Equation 2, max .9, min .1: face on .9; at |Nz| = .5, p = 2: .8 (1 - .25) + .1 = .7, p = 3: .8 (1 -
+    // .125) + .1 = .8; edge on .1.
+    assert_near(vtNonlinearTransmittance(1.0f, 0.9f, 0.1f, 2.0f), 0.9f, 1e-6);
+    assert_near(vtNonlinearTransmittance(0.5f, 0.9f, 0.1f, 2.0f), 0.7f, 1e-6);
+    assert_near(vtNonlinearTransmittance(0.5f, 0.9f, 0.1f, 3.0f), 0.8f, 1e-6);
+    assert_near(vtNonlinearTransmittance(0.0f, 0.9f, 0.1f, 2.0f), 0.1f, 1e-6);
+
+    // A wall face on: straight through.
+    float shift[2];
+    assert_near(vtWallPath((vtVec3){0, 0, -1}, 1.5f, 0.3f, shift), 0.3f, 1e-6);
+    assert_near(shift[0], 0.0f, 1e-6);
+    // Tilted by 30 degrees, n = 1.5: sin r = .5 / 1.5, cos r = .942809; path .3 / .942809 = .318198. The ray
+    // turns by 30 - 19.4712 degrees towards -N, so the shift is path * sin(10.5288) = .058143, away from N's
+    // x.
+    vtVec3 N = {sinf(VT_PI / 6.0f), 0.0f, -cosf(VT_PI / 6.0f)};
+    assert_near(vtWallPath(N, 1.5f, 0.3f, shift), 0.318198f, 1e-5);
+    assert_near(shift[0], -0.058143f, 1e-5);
+    assert_near(shift[1], 0.0f, 1e-6);
+    // Index 1: no shift at any tilt.
+    vtWallPath(N, 1.0f, 0.3f, shift);
+    assert_near(shift[0], 0.0f, 1e-7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -101,6 +128,7 @@ int main(void)
         cmocka_unit_test(totalReflectionBeginsAtTheCriticalAngle),
         cmocka_unit_test(sameIndexChangesNothing),
         cmocka_unit_test(slabShiftsByTheTextbookOffset),
+        cmocka_unit_test(transparencyFollowsKayAndGreenberg),
         cmocka_unit_test(trianglesNormalDecidesWhereTheOtherFails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,56 @@
+// This work is based on:
+//   Manuel M. Oliveira, Maicon Brauwers. Real-Time Refraction Through Deformable Objects. I3D 2007, as
+//   Wang & Chi 2014 (section 3.3) restate it.
+// The refracted ray is searched in the back side's depth, linearly and then by halving, between S and E
+// where it meets Zmin and Zmax. Nothing is done about jumps of depth: that is what `layered` adds.
+// Departures: beyond the critical angle the exit is clamped to it, as in `wyman` (the sources at hand do not
+// say what the paper does); a ray that leaves the silhouette without a hit takes the last point within.
+void main()
+{
+    SurfaceHit hit;
+    vec3 view;
+    if (!firstSurface(hit, view)) {
+        writeBackground();
+        return;
+    }
+    bool inside = false, reflected;
+    vec3 T1 = meetSurface(view, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
+    LayerRay ray = makeLayerRay(hit.position, T1);
+
+    // E, where the ray reaches the far end (or, turned towards the eye, the near one) of the depth range.
+    float goal = ray.direction.z >= 0.0 ? u_layerDepth.y : u_layerDepth.x;
+    float diagonal = length(u_boundsMax.xyz - u_boundsMin.xyz);
+    float end = abs(ray.direction.z) > 1e-6 ? (goal - ray.origin.z) / ray.direction.z : diagonal;
+    float stride = min(end, diagonal) / float(u_search.y);
+
+    // Linear, to the first point behind the back side or off it.
+    float before = 0.0, behind = stride;
+    for (int i = 1; i < u_search.y; ++i) {
+        vec3 p = layerPoint(ray, behind);
+        uint stored = backDepth(p.xy);
+        if (stored == VT_DEPTH_NONE || p.z > float(stored)) {
+            break;
+        }
+        before = behind;
+        behind += stride;
+    }
+    for (int i = 0; i < u_search.z; ++i) {
+        float middle = 0.5 * (before + behind);
+        vec3 p = layerPoint(ray, middle);
+        uint stored = backDepth(p.xy);
+        if (stored == VT_DEPTH_NONE || p.z > float(stored)) {
+            behind = middle;
+        } else {
+            before = middle;
+        }
+    }
+
+    vec3 N2 = backNormal(layerPoint(ray, before).xy);
+    if (dot(N2, N2) == 0.0) {
+        writePath(T1, VT_PATH_LOST, 1, false);
+        return;
+    }
+    bool clamped;
+    vec3 T2 = leaveClamped(T1, dot(N2, T1) < 0.0 ? -N2 : N2, clamped);
+    writePath(T2, VT_PATH_EXITED, 2, clamped);
+}

@@ -1,0 +1,38 @@
+// The back side as the two-interface techniques know it: the layers' second slot.
+uniform usampler2DArray u_layerDepths;
+uniform usampler2DArray u_layerNormals;
+
+// VT_DEPTH_NONE outside the texture and where there is no back side.
+uint backDepth(vec2 position)
+{
+    ivec2 texel = ivec2(floor(position));
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, u_size.zw))) {
+        return VT_DEPTH_NONE;
+    }
+    return texelFetch(u_layerDepths, ivec3(texel, 1), 0).r;
+}
+
+// Interpolated outward normal, bilinear over the texels that have one.
+vec3 backNormal(vec2 position)
+{
+    vec2 corner = floor(position - 0.5);
+    vec2 fraction = position - 0.5 - corner;
+    vec3 normal = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        vec2 step = vec2(i & 1, i >> 1);
+        uint bits = texelFetch(u_layerNormals, ivec3(layerTexel(corner + step), 1), 0).r;
+        vec2 w = mix(1.0 - fraction, fraction, step);
+        normal += bits != VT_NO_NORMAL ? (w.x * w.y + 1e-4) * unpackNormal(bits) : vec3(0.0);
+    }
+    return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0);
+}
+
+// The exit through a back side of outward normal N. Beyond the critical angle it is clamped to it, as Wyman
+// 2005 does: the ray leaves along the surface.
+vec3 leaveClamped(vec3 T, vec3 N, out bool clamped)
+{
+    float c = -dot(N, T);
+    float k = 1.0 - u_optics.x * u_optics.x * (1.0 - c * c);
+    clamped = k < 0.0;
+    return normalize(u_optics.x * T + (u_optics.x * c + sqrt(max(k, 0.0))) * N);
+}
