@@ -7,3 +7,12 @@ vtResult vtRunRender(const vtOptions* options, vtError* error);
 
 /// `vitrine view`: a window to turn the object in.
 vtResult vtRunView(const vtOptions* options, vtError* error);
+
+/// `vitrine ladder`: every technique from one view beside the reference, as a contact sheet and a table.
+vtResult vtRunLadder(const vtOptions* options, vtError* error);
+
+/// `vitrine thesis`: the comparisons of Wang & Chi 2014, chapters 3 and 4, as a page.
+vtResult vtRunThesis(const vtOptions* options, vtError* error);
+
+/// `vitrine compare`: how far a result is from the truth. words[0] is "compare".
+vtResult vtRunCompare(int count, char** words, vtError* error);

@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "files.h"
+#include "reference.h"
+#include "trace.h"
 
 static vtResult loadModelFile(const char* path, vtModel* model, vtError* error)
 {
@@ -53,6 +55,21 @@ static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vt
     return result;
 }
 
+/// By the reference tracer where it is built in, else by the core's own search.
+static vtResult measureInnerDistances(vtMesh* mesh, vtError* error)
+{
+    vtReference* reference = NULL;
+    float* distances = malloc(mesh->vertexCount * sizeof *distances);
+    if (distances != NULL && vtCreateReference(mesh, &reference, NULL) == vt_ok &&
+        vtReference_InnerDistances(reference, mesh, distances, NULL) == vt_ok) {
+        mesh->innerDistances = distances;
+    } else {
+        free(distances);
+    }
+    vtDestroyReference(reference);
+    return vtComputeInnerDistances(mesh, error);
+}
+
 static void printNotes(const char* name, const vtMesh* mesh, bool verbose)
 {
     if (mesh->openEdgeCount > 0) {
@@ -91,8 +108,8 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
         vtDestroyModel(&model);
         return result;
     }
-    if (vtFindTechnique(options->technique) == vt_techniqueWyman) {
-        result = vtComputeInnerDistances(&model.mesh, error);
+    if (options->innerDistances || vtFindTechnique(options->technique) == vt_techniqueWyman) {
+        result = measureInnerDistances(&model.mesh, error);
         if (result != vt_ok) {
             vtDestroyModel(&model);
             vtDestroyEnvironment(&input->environment);
@@ -114,7 +131,8 @@ void vtDestroyInput(vtInput* input)
 vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* frame, vtError* error)
 {
     *frame = vtDefaultFrame();
-    frame->technique = vtFindTechnique(options->technique);
+    bool isReference = vtIsReference(options);
+    frame->technique = isReference ? frame->technique : vtFindTechnique(options->technique);
     if (frame->technique == vt_techniqueCount) {
         return vtFail(error, vt_errorArgument, "technique '%s' is unknown; see 'vitrine list'",
                       options->technique);

@@ -5,15 +5,19 @@
 
 static void printUsage(void)
 {
-    printf("vitrine: glass through OpenGL ES 3.0, with every refraction and internal reflection\n"
-           "\n"
-           "  vitrine render MODEL -o OUT.png [options]   draw a picture, no screen needed\n"
-           "  vitrine view MODEL [options]                turn the object in a window\n"
-           "  vitrine list                                techniques, shapes, environments\n"
-           "  vitrine render --help, vitrine view --help  the options of each\n"
-           "  vitrine --version\n"
-           "\n"
-           "MODEL is a .glb or .gltf file (- reads a .glb from standard input) or a built-in shape.\n");
+    printf(
+        "vitrine: glass through OpenGL ES 3.0, with every refraction and internal reflection\n"
+        "\n"
+        "  vitrine render MODEL -o OUT.png [options]   draw a picture, no screen needed\n"
+        "  vitrine ladder MODEL [options]              every technique beside the reference, with its error\n"
+        "  vitrine compare A B [options]               measure a picture or directions against the truth\n"
+        "  vitrine thesis -o FOLDER [--models FOLDER]  the comparisons of Wang & Chi 2014 as a page\n"
+        "  vitrine view MODEL [options]                turn the object in a window\n"
+        "  vitrine list                                techniques, shapes, environments\n"
+        "  vitrine COMMAND --help                      the options of each\n"
+        "  vitrine --version\n"
+        "\n"
+        "MODEL is a .glb or .gltf file (- reads a .glb from standard input) or a built-in shape.\n");
 }
 
 static void printList(void)
@@ -23,6 +27,8 @@ static void printList(void)
         const vtTechniqueInfo* info = vtTechnique_Info((vtTechnique)i);
         printf("  %-14s %s\n  %-14s %s, %d\n", info->id, info->summary, "", info->source, info->year);
     }
+    printf("  %-14s %s\n  %-14s %s, %d\n", "reference", "CPU ray tracer, the yardstick (Embree)", "",
+           "Whitted, An Improved Illumination Model for Shaded Display", 1980);
     printf("shapes:\n");
     for (int i = 0; vtShapeName(i) != NULL; ++i) {
         printf("  %-14s %s\n", vtShapeName(i), vtShapeSummary(i));
@@ -42,31 +48,49 @@ static int report(vtResult result, const vtError* error)
     return 1;
 }
 
-static int runCommand(vtCommand command, int count, char** words)
+typedef vtResult vtRunFcn(const vtOptions* options, vtError* error);
+
+static const struct {
+    const char* name;
+    vtCommand command;
+    vtRunFcn* run;
+} commands[] = {
+    {"render", vt_commandRender, vtRunRender},
+    {"view", vt_commandView, vtRunView},
+    {"ladder", vt_commandLadder, vtRunLadder},
+    {"thesis", vt_commandThesis, vtRunThesis},
+};
+
+static int runCommand(int index, int count, char** words)
 {
     vtOptions options;
     vtError error = {0};
-    vtResult result = vtParseOptions(command, count, words, &options, &error);
-    if (result != vt_ok) {
-        return report(result, &error);
-    }
-    if (options.help) {
-        printf("vitrine %s MODEL [options]; MODEL is a .glb or .gltf file or a built-in shape\n\n", words[0]);
-        vtPrintOptions(command);
+    vtResult result = vtParseOptions(commands[index].command, count, words, &options, &error);
+    if (result == vt_ok && options.help) {
+        printf(commands[index].command == vt_commandThesis
+                   ? "vitrine %s [options]\n\n"
+                   : "vitrine %s MODEL [options]; MODEL is a .glb or .gltf file or a built-in shape\n\n",
+               words[0]);
+        vtPrintOptions(commands[index].command);
         return 0;
     }
-    result = command == vt_commandRender ? vtRunRender(&options, &error) : vtRunView(&options, &error);
+    if (result == vt_ok) {
+        result = commands[index].run(&options, &error);
+    }
     return report(result, &error);
 }
 
 int main(int argc, char** argv)
 {
     const char* command = argc > 1 ? argv[1] : "";
-    if (strcmp(command, "render") == 0) {
-        return runCommand(vt_commandRender, argc - 1, argv + 1);
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; ++i) {
+        if (strcmp(command, commands[i].name) == 0) {
+            return runCommand((int)i, argc - 1, argv + 1);
+        }
     }
-    if (strcmp(command, "view") == 0) {
-        return runCommand(vt_commandView, argc - 1, argv + 1);
+    if (strcmp(command, "compare") == 0) {
+        vtError error = {0};
+        return report(vtRunCompare(argc - 1, argv + 1, &error), &error);
     }
     if (strcmp(command, "list") == 0) {
         printList();

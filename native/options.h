@@ -14,6 +14,9 @@ typedef struct vtOptions {
     const char* backend;
     const char* directions;
     const char* layerSheet;
+    const char* reference;
+    const char* table;
+    const char* models;
     const char* backSurface;
     float ior, fov;
     float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
@@ -21,11 +24,14 @@ typedef struct vtOptions {
     bool hasCamera, hasTarget;
     int size[2];
     int layers, steps, refine, maxEvents, layerSize;
+    int samples; ///< of the reference, a pixel
+    float referenceThreshold;
     int frames; ///< view: close after so many, 0: never
-    bool analysis, verbose, help;
+    bool fresnel, analysis, verbose, help;
+    bool innerDistances; ///< set by commands that draw `wyman` whatever the technique option says
 } vtOptions;
 
-typedef enum vtCommand { vt_commandRender, vt_commandView } vtCommand;
+typedef enum vtCommand { vt_commandRender, vt_commandView, vt_commandLadder, vt_commandThesis } vtCommand;
 
 /// Parses the words after the command. Fails with a sentence on an unknown option, a missing or malformed
 /// value or one out of range.

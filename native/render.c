@@ -6,10 +6,12 @@
 #include "base/error.h"
 #include "base/image.h"
 #include "commands.h"
-#include "context.h"
 #include "files.h"
-#include "load.h"
+#include "metrics_image.h"
+#include "metrics_map.h"
+#include "session.h"
 #include "technique.h"
+#include "trace.h"
 
 /// A file to be written once everything has been drawn.
 typedef struct Output {
@@ -18,18 +20,15 @@ typedef struct Output {
     size_t size;
 } Output;
 
-static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, Output* output, vtError* error)
+enum { outputPicture, outputDirections, outputSheet, outputCount };
+
+static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, uint8_t* pixels, Output* output,
+                            vtError* error)
 {
-    uint8_t* pixels = malloc(4 * (size_t)frame->width * (size_t)frame->height);
-    if (pixels == NULL) {
-        return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", frame->width,
-                      frame->height);
-    }
     vtResult result = vtRenderer_DrawImage(renderer, frame, pixels, error);
     if (result == vt_ok) {
         result = vtEncodePng(pixels, 4, frame->width, frame->height, &output->bytes, &output->size, error);
     }
-    free(pixels);
     return result;
 }
 
@@ -51,12 +50,12 @@ static vtResult readDirections(vtRenderer* renderer, const vtFrame* frame, Outpu
 /// Depths in the upper row, normals in the lower, layer one on the left; each at the layers' own size.
 static vtResult drawLayerSheet(vtRenderer* renderer, const vtFrame* frame, Output* output, vtError* error)
 {
-    vtRendererInfo info = vtRenderer_Info(renderer);
     const int layers = vtFrame_LayerCount(frame);
     if (layers == 0) {
         return vtFail(error, vt_errorArgument, "layer sheet: technique '%s' peels no layers",
                       vtTechnique_Info(frame->technique)->id);
     }
+    vtRendererInfo info = vtRenderer_Info(renderer);
     vtFrame tile = *frame;
     tile.layerSize = info.layerWidth > info.layerHeight ? info.layerWidth : info.layerHeight;
     tile.width = info.layerWidth;
@@ -88,91 +87,160 @@ static vtResult drawLayerSheet(vtRenderer* renderer, const vtFrame* frame, Outpu
     return result;
 }
 
-static vtResult drawAll(const vtOptions* options, const vtInput* input, vtRenderer* renderer,
-                        Output outputs[3], vtError* error)
+static vtResult drawAll(const vtOptions* options, const vtFrame* frame, vtRenderer* renderer, uint8_t* pixels,
+                        Output* outputs, vtError* error)
 {
-    vtFrame frame;
-    vtResult result = vtMakeFrame(options, input, &frame, error);
-    if (result == vt_ok) {
-        result = vtRenderer_SetMesh(renderer, &input->mesh, error);
-    }
-    if (result == vt_ok) {
-        result = vtRenderer_SetEnvironment(renderer, &input->environment, error);
-    }
-    if (result == vt_ok) {
-        result = drawPicture(renderer, &frame, &outputs[0], error);
-    }
+    vtResult result = drawPicture(renderer, frame, pixels, &outputs[outputPicture], error);
     if (result == vt_ok && options->verbose) {
         vtRendererInfo info = vtRenderer_Info(renderer);
         fprintf(stderr, "vitrine: %s, %s\n", info.device, info.version);
         fprintf(stderr, "vitrine: ior %g, %d layers of %d x %d, %.1f MB of textures, %.1f MB of mesh\n",
-                (double)frame.ior, vtFrame_LayerCount(&frame), info.layerWidth, info.layerHeight,
+                (double)frame->ior, vtFrame_LayerCount(frame), info.layerWidth, info.layerHeight,
                 (double)info.textureBytes / 1e6, (double)info.meshBytes / 1e6);
     }
     if (result == vt_ok && options->directions != NULL) {
-        outputs[1].path = options->directions;
-        result = readDirections(renderer, &frame, &outputs[1], error);
+        result = readDirections(renderer, frame, &outputs[outputDirections], error);
     }
     if (result == vt_ok && options->layerSheet != NULL) {
-        outputs[2].path = options->layerSheet;
-        result = drawLayerSheet(renderer, &frame, &outputs[2], error);
+        result = drawLayerSheet(renderer, frame, &outputs[outputSheet], error);
     }
     return result;
 }
 
-static vtResult renderInContext(const vtOptions* options, const vtInput* input, Output outputs[3],
-                                vtError* error)
+static vtResult rasterise(const vtOptions* options, vtFrame* frame, uint8_t** pixels, Output* outputs,
+                          vtError* error)
 {
-    static const struct {
-        const char* name;
-        vtBackend backend;
-    } backends[] = {{"auto", vt_backendAuto}, {"osmesa", vt_backendOSMesa}, {"egl", vt_backendEgl}};
-    int chosen = 0;
-    while (chosen < 3 && strcmp(backends[chosen].name, options->backend) != 0) {
-        ++chosen;
-    }
-    if (chosen == 3) {
-        return vtFail(error, vt_errorArgument, "--rendering-backend is '%s'; it must be auto, osmesa or egl",
-                      options->backend);
-    }
-    vtContext context;
-    vtResult result = vtCreateContext(backends[chosen].backend, &context, error);
-    if (result != vt_ok) {
-        return result;
-    }
-    vtRenderer* renderer = NULL;
-    result = vtCreateRenderer(&(vtRendererDef){context.getProcAddress}, &renderer, error);
+    vtSession session;
+    vtResult result = vtOpenSession(options, &session, error);
     if (result == vt_ok) {
-        result = drawAll(options, input, renderer, outputs, error);
+        result = vtMakeFrame(options, &session.input, frame, error);
     }
-    vtDestroyRenderer(renderer);
-    vtDestroyContext(&context);
+    if (result == vt_ok) {
+        *pixels = malloc(4 * (size_t)frame->width * (size_t)frame->height);
+        result = *pixels != NULL ? drawAll(options, frame, session.renderer, *pixels, outputs, error)
+                                 : vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d",
+                                          frame->width, frame->height);
+    }
+    vtCloseSession(&session);
     return result;
 }
 
-vtResult vtRunRender(const vtOptions* options, vtError* error)
+static vtResult trace(const vtOptions* options, vtFrame* frame, uint8_t** pixels, Output* outputs,
+                      vtError* error)
 {
-    if (options->output == NULL && options->directions == NULL && options->layerSheet == NULL) {
-        return vtFail(error, vt_errorArgument, "no output given; add -o PICTURE.png");
-    }
-    if (options->output != NULL && strcmp(options->output, "-") == 0 && isatty(STDOUT_FILENO)) {
-        return vtFail(error, vt_errorArgument, "-o - writes PNG bytes; send them to a file or a pipe");
+    if (options->layerSheet != NULL) {
+        return vtFail(error, vt_errorArgument, "layer sheet: technique 'reference' peels no layers");
     }
     vtInput input;
     vtResult result = vtLoadInput(options, &input, error);
     if (result != vt_ok) {
         return result;
     }
-    Output outputs[3] = {{.path = options->output}};
-    result = renderInContext(options, &input, outputs, error);
-    for (int i = 0; i < 3 && result == vt_ok; ++i) {
+    vtReferenceImage image = {0};
+    result = vtMakeFrame(options, &input, frame, error);
+    if (result == vt_ok) {
+        result = vtTrace(options, &input, frame, &image, error);
+    }
+    if (result == vt_ok) {
+        result = vtTracePixels(&image, frame, pixels, error);
+    }
+    if (result == vt_ok) {
+        result = vtEncodePng(*pixels, 4, frame->width, frame->height, &outputs[outputPicture].bytes,
+                             &outputs[outputPicture].size, error);
+    }
+    if (result == vt_ok && options->directions != NULL) {
+        result = vtEncodePfm(image.directions, frame->width, frame->height, &outputs[outputDirections].bytes,
+                             &outputs[outputDirections].size, error);
+    }
+    vtDestroyReferenceImage(&image);
+    vtDestroyInput(&input);
+    return result;
+}
+
+/// Mean FLIP between the picture just made and the file named by --reference; above the threshold the
+/// difference is written beside the output.
+static vtResult compareWithReference(const vtOptions* options, const vtFrame* frame, const uint8_t* pixels,
+                                     vtError* error)
+{
+    uint8_t *bytes, *encoded = NULL;
+    size_t size, pixelCount = (size_t)frame->width * (size_t)frame->height;
+    float *wanted, *map = NULL;
+    int width, height;
+    vtResult result = vtReadFile(options->reference, &bytes, &size, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    result = vtDecodeImageLinear(bytes, size, options->reference, &wanted, &width, &height, error);
+    free(bytes);
+    if (result != vt_ok) {
+        return result;
+    }
+    float* drawn = malloc(3 * pixelCount * sizeof *drawn);
+    map = malloc(pixelCount * sizeof *map);
+    uint8_t* colors = malloc(3 * pixelCount);
+    vtPictureError difference;
+    if (width != frame->width || height != frame->height) {
+        result = vtFail(error, vt_errorArgument,
+                        "reference '%s' is %d x %d, the picture %d x %d; set --resolution",
+                        options->reference, width, height, frame->width, frame->height);
+    } else if (drawn == NULL || map == NULL || colors == NULL) {
+        result = vtFail(error, vt_errorMemory, "reference: out of memory for %d x %d", width, height);
+    } else {
+        for (size_t i = 0; i < 3 * pixelCount; ++i) {
+            drawn[i] = vtSrgbToLinear((float)pixels[i / 3 * 4 + i % 3] / 255.0f);
+        }
+        result = vtComparePictures(drawn, wanted, width, height, &difference, map, error);
+    }
+    if (result == vt_ok && difference.flip > (double)options->referenceThreshold) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s.difference.png",
+                 options->output != NULL && strcmp(options->output, "-") != 0 ? options->output : "vitrine");
+        vtDrawFlip(map, pixelCount, colors);
+        result = vtEncodePng(colors, 3, width, height, &encoded, &size, error);
+        if (result == vt_ok) {
+            result = vtWriteFile(path, encoded, size, error);
+        }
+        if (result == vt_ok) {
+            result = vtFail(
+                error, vt_errorArgument,
+                "the picture differs from '%s': mean FLIP %.4f is above --reference-threshold %g; see '%s'",
+                options->reference, difference.flip, (double)options->referenceThreshold, path);
+        }
+    }
+    free(encoded);
+    free(colors);
+    free(map);
+    free(drawn);
+    free(wanted);
+    return result;
+}
+
+vtResult vtRunRender(const vtOptions* options, vtError* error)
+{
+    Output outputs[outputCount] = {
+        {.path = options->output}, {.path = options->directions}, {.path = options->layerSheet}};
+    if (options->output == NULL && options->directions == NULL && options->layerSheet == NULL &&
+        options->reference == NULL) {
+        return vtFail(error, vt_errorArgument, "no output given; add -o PICTURE.png");
+    }
+    if (options->output != NULL && strcmp(options->output, "-") == 0 && isatty(STDOUT_FILENO)) {
+        return vtFail(error, vt_errorArgument, "-o - writes PNG bytes; send them to a file or a pipe");
+    }
+    vtFrame frame;
+    uint8_t* pixels = NULL;
+    vtResult result = vtIsReference(options) ? trace(options, &frame, &pixels, outputs, error)
+                                             : rasterise(options, &frame, &pixels, outputs, error);
+    for (int i = 0; i < outputCount && result == vt_ok; ++i) {
         if (outputs[i].path != NULL) {
             result = vtWriteFile(outputs[i].path, outputs[i].bytes, outputs[i].size, error);
         }
     }
-    for (int i = 0; i < 3; ++i) {
+    if (result == vt_ok && options->reference != NULL) {
+        result = compareWithReference(options, &frame, pixels, error);
+    }
+    for (int i = 0; i < outputCount; ++i) {
         free(outputs[i].bytes);
     }
-    vtDestroyInput(&input);
+    free(pixels);
     return result;
 }

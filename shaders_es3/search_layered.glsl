@@ -16,7 +16,7 @@
 
 const float FIRST_STEP = 0.1; // of a linear step: clears the surface that the ray starts on
 const float BOX_MARGIN = 4.0; // texels at the far end
-const int SPARE_STEPS = 16;   // faults passed on the way do not use up the linear steps
+const int MOST_FAULTS = 16;   // passed on the way of one segment
 
 // Distance along the ray to where it leaves the object's box, widened by a few texels: a face of the object
 // that lies in a face of its box is found only once the ray is behind the depth of the texel there.
@@ -78,56 +78,42 @@ SurfaceHit blendTexels(int layer, vec3 origin, vec3 direction, vec3 point, float
 }
 
 // A wall between two columns: its normal runs from that of the surface before to that of the one behind.
-bool wallBetween(vec3 inner, vec3 outer, vec3 origin, vec3 direction, bool inside, float t, out SurfaceHit hit)
+bool wallBetween(vec3 inner, vec3 outer, vec3 direction, bool inside, vec3 position, out SurfaceHit hit)
 {
     ivec2 texel = layerTexel(inner.xy);
     Column column = readColumn(texel, inner.z);
-    if (!column.inside || column.after < 0 || readColumn(layerTexel(outer.xy), outer.z).inside) {
-        return false;
-    }
-    uvec2 before = layerNormals(column.before, texel);
-    uvec2 after = layerNormals(column.after, texel);
+    bool isWall = column.inside && column.after >= 0 && !readColumn(layerTexel(outer.xy), outer.z).inside;
+    uvec2 before = layerNormals(max(column.before, 0), texel);
+    uvec2 after = layerNormals(max(column.after, 0), texel);
     float share = (inner.z - column.beforeDepth) / max(column.afterDepth - column.beforeDepth, 1.0);
     vec3 normal = mix(unpackNormal(before.x), unpackNormal(after.x), share);
     float size = length(normal);
-    hit.position = origin + t * direction;
+    hit.position = position;
     hit.normal = size > 1e-3 ? normal / size : (inside ? direction : -direction);
     hit.flatNormal = hit.normal;
-    return facesRightWay(hit.normal, direction, inside);
+    return isWall && facesRightWay(hit.normal, direction, inside);
 }
 
-// Looks at every layer whose flag changed between two near points of the ray. Case 3 of the paper, a hit:
-// the layer's depths at both points differ by less than a step. Case 2: they do not, the ray passed a fault.
-bool hitBetween(LayerRay ray, float low, float high, int changed, vec3 origin, vec3 direction, bool inside,
-                float jump, out SurfaceHit hit)
+// The nearest layer whose flag changed between two near points of the ray and which is a surface there. Case
+// 3 of the paper, a hit: its depths at both points differ by less than a step. Case 2: they do not, the ray
+// passed a fault. -1: none.
+int surfaceBetween(ivec2 texelA, ivec2 texelB, int changed, vec3 direction, bool inside, float jump)
 {
-    vec3 a = layerPoint(ray, low);
-    vec3 b = layerPoint(ray, high);
-    ivec2 texelA = layerTexel(a.xy);
-    ivec2 texelB = layerTexel(b.xy);
+    int found = -1;
     for (int layer = 0; layer < u_search.x; ++layer) {
-        if ((changed >> layer) % 2 == 0) {
-            continue;
-        }
         float depthA = float(layerDepth(layer, texelA));
         float depthB = float(layerDepth(layer, texelB));
-        if (max(depthA, depthB) > VT_DEPTH_SCALE || abs(depthA - depthB) > jump) {
-            continue;
-        }
-        uvec2 nearest = layerNormals(layer, texelB);
-        if (facesRightWay(unpackNormal(nearest.y), direction, inside)) {
-            hit = blendTexels(layer, origin, direction, b, high, jump, nearest);
-            return true;
-        }
+        bool continuous = max(depthA, depthB) <= VT_DEPTH_SCALE && abs(depthA - depthB) <= jump;
+        bool faces = facesRightWay(unpackNormal(layerNormals(layer, texelB).y), direction, inside);
+        bool here = (changed >> layer) % 2 != 0 && continuous && faces;
+        found = here && found < 0 ? layer : found;
     }
-    float middle = 0.5 * (low + high);
-    if (inside) {
-        return wallBetween(a, b, origin, direction, true, middle, hit);
-    }
-    return wallBetween(b, a, origin, direction, false, middle, hit);
+    return found;
 }
 
-// The first surface that a ray from a surface meets. False where it meets none.
+// The first surface that a ray from a surface meets. False where it meets none. The linear steps are a loop
+// of their own, with nothing else in it: software renderers, and GPUs whose pixels part ways, pay for every
+// branch inside a loop at every step.
 bool searchLayers(vec3 origin, vec3 direction, bool inside, out SurfaceHit hit)
 {
     float end = boxExit(origin, direction);
@@ -138,32 +124,45 @@ bool searchLayers(vec3 origin, vec3 direction, bool inside, out SurfaceHit hit)
     // Step clear of the surface that the ray starts on, then note which layers lie in front.
     float a = FIRST_STEP * stride;
     int flags = layersInFront(layerPoint(ray, a));
-    for (int i = 0; i < u_search.y + SPARE_STEPS && a < end; ++i) {
-        // Linear step: case 1 of the paper, no flag changes, go on.
-        float b = min(a + stride, end);
-        int next = layersInFront(layerPoint(ray, b));
-        if (next == flags) {
+    int steps = u_search.y;
+    for (int fault = 0; fault <= MOST_FAULTS; ++fault) {
+        // Linear steps. Case 1 of the paper: no flag changes, go on.
+        float b = a;
+        int next = flags;
+        while (next == flags && b < end && steps > 0) {
             a = b;
-            continue;
+            b = min(a + stride, end);
+            next = layersInFront(layerPoint(ray, b));
+            --steps;
         }
-        // Binary search for the first change.
-        float high = b;
+        if (next == flags) {
+            break;
+        }
+        // Halving, to the first change.
         for (int k = 0; k < u_search.z; ++k) {
-            float middle = 0.5 * (a + high);
+            float middle = 0.5 * (a + b);
             int there = layersInFront(layerPoint(ray, middle));
-            if (there == flags) {
-                a = middle;
-            } else {
-                high = middle;
-                next = there;
-            }
+            bool same = there == flags;
+            a = same ? middle : a;
+            b = same ? b : middle;
+            next = same ? next : there;
         }
-        if (hitBetween(ray, a, high, next ^ flags, origin, direction, inside, jump, hit)) {
+        vec3 pointA = layerPoint(ray, a), pointB = layerPoint(ray, b);
+        ivec2 texelA = layerTexel(pointA.xy), texelB = layerTexel(pointB.xy);
+        int layer = surfaceBetween(texelA, texelB, next ^ flags, direction, inside, jump);
+        SurfaceHit surface = blendTexels(max(layer, 0), origin, direction, pointB, b, jump,
+                                         layerNormals(max(layer, 0), texelB));
+        SurfaceHit wall;
+        bool isWall = wallBetween(inside ? pointA : pointB, inside ? pointB : pointA, direction, inside,
+                                  origin + 0.5 * (a + b) * direction, wall);
+        if (layer >= 0 || isWall) {
+            hit = layer >= 0 ? surface : wall;
             return true;
         }
         // Case 2: remember on which side of each layer the ray now is, and go on from there.
         flags = next;
-        a = high;
+        a = b;
+        ++steps; // the rest of the step is still to be gone
     }
     return false;
 }

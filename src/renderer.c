@@ -316,6 +316,11 @@ vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_
         return result;
     }
 
+    if (rgba == NULL) {
+        gl->Finish();
+        gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+        return vtSucceed(error);
+    }
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl->ReadPixels(0, 0, frame->width, frame->height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -278,7 +278,8 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
 vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error);
 
 /// Draws one frame off screen and reads it back: 4 * width * height bytes, sRGB with alpha 255, top row
-/// first. frame->framebuffer is ignored; framebuffer 0 is bound afterwards.
+/// first. frame->framebuffer is ignored; framebuffer 0 is bound afterwards. With rgba NULL nothing is read:
+/// it returns once the GPU has finished, for timing.
 vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error);
 
 /// Exit directions of the last frame: 3 * width * height floats, top row first. Unit world directions;

@@ -279,6 +279,77 @@ describe('bad input', () => {
   });
 });
 
+describe('measuring', () => {
+  const draw = (name, ...args) => {
+    const result = vitrine(['render', 'knot', ...small, '-o', `${name}.png`, '--directions', `${name}.pfm`, ...args]);
+    assert.equal(result.code, 0, result.error);
+  };
+
+  test('compare pictures and directions', () => {
+    draw('truth', '--technique', 'reference');
+    draw('drawn');
+    const same = JSON.parse(vitrine(['compare', 'truth.png', 'truth.png', '--json']).text);
+    assert.deepEqual([same.psnr, same.ssim, same.flip, same.pixelsOver], [null, 1, 0, 0]);
+    const picture = JSON.parse(vitrine(['compare', 'drawn.png', 'truth.png', '--json', '--difference', 'map.png']).text);
+    assert.ok(picture.flip > 0 && picture.flip < 0.1, `FLIP ${picture.flip}`);
+    assert.ok(existsSync(join(folder, 'map.png')));
+    const directions = JSON.parse(vitrine(['compare', 'drawn.pfm', 'truth.pfm', '--json']).text);
+    assert.ok(directions.within1 > 0.8, `${directions.within1} within 1 degree`);
+    assert.equal(directions.maskErrors, 0);
+    assert.match(vitrine(['compare', 'drawn.pfm', 'truth.pfm']).text, /within 1/);
+    assert.match(vitrine(['compare', '--help']).text, /--json/);
+  });
+
+  test('compare refuses what cannot be compared', () => {
+    const fails = (args, parts) => {
+      const result = vitrine(['compare', ...args]);
+      assert.equal(result.code, 1);
+      assert.match(result.error, /^vitrine: [^\n]+\n$/);
+      for (const part of parts) assert.ok(result.error.includes(part), `'${part}' is not in: ${result.error}`);
+    };
+    vitrine(['render', 'knot', '--resolution', '32,32', '-o', 'little.png']);
+    fails(['drawn.png', 'little.png'], ['64', '32']);
+    fails(['drawn.png', 'truth.pfm'], ["'truth.pfm'"]);
+    fails(['drawn.png', 'nowhere.png'], ["'nowhere.png'"]);
+    fails(['drawn.png'], []);
+    fails(['drawn.png', 'truth.png', '--shiny'], ['--shiny']);
+  });
+
+  test('render against a reference picture', () => {
+    const close = vitrine(['render', 'knot', ...small, '--reference', 'truth.png', '--reference-threshold', '0.1']);
+    assert.equal(close.code, 0, close.error);
+    const far = vitrine(['render', 'knot', ...small, '-t', 'single', '-o', 'far.png', '--reference', 'truth.png',
+      '--reference-threshold', '0.01']);
+    assert.equal(far.code, 1);
+    assert.match(far.error, /differs from 'truth\.png': mean FLIP 0\.\d+ is above --reference-threshold 0\.01/);
+    assert.ok(existsSync(join(folder, 'far.png')) && existsSync(join(folder, 'far.png.difference.png')));
+  });
+
+  test('the reference tracer: samples, Fresnel, analysis', () => {
+    const args = ['render', 'sphere', '--resolution', '24,24', '-t', 'reference'];
+    assert.equal(vitrine([...args, '--fresnel', '--samples', '16', '-o', 'fresnel.png']).code, 0);
+    assert.equal(vitrine([...args, '--analysis', '-o', 'paths.png']).code, 0);
+    refuses([...args, '--layer-sheet', 'sheet.png'], ['peels no layers']);
+    refuses(['render', 'sphere', '-t', 'single', '--layer-sheet', 'sheet.png', ...small], ['peels no layers']);
+    refuses([...args, '--samples', '0'], ['--samples is 0', 'from 1 to 65536']);
+  });
+
+  test('the ladder: errors fall from rung to rung', () => {
+    const result = vitrine(['ladder', 'torus', '--resolution', '96,96', '-o', 'ladder.png', '--table', 'ladder.md']);
+    assert.equal(result.code, 0, result.error);
+    const table = readFileSync(join(folder, 'ladder.md'), 'utf8');
+    const mean = (label) => Number(table.match(new RegExp(`\\| ${label} \\|.*?\\| ([\\d.]+)° \\|`))[1]);
+    const rungs = ['single', 'wyman', 'oliveira', 'layered, 4 layers'].map(mean);
+    assert.ok(rungs[0] > rungs[1] && rungs[1] > rungs[3] && rungs[2] > rungs[3], rungs.join(' '));
+    assert.ok(existsSync(join(folder, 'ladder.png')));
+  });
+
+  test('the thesis needs a folder and no model', () => {
+    assert.match(vitrine(['thesis']).error, /add -o FOLDER/);
+    assert.match(vitrine(['thesis', 'knot', '-o', 'x']).error, /'knot' is one too many/);
+  });
+});
+
 describe('window', () => {
   const xvfb = spawnSync('sh', ['-c', 'command -v xvfb-run']).status === 0;
   test('opens under Xvfb and draws', { skip: xvfb ? false : 'xvfb-run is not installed' }, () => {

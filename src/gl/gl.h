@@ -41,6 +41,7 @@
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                   \
     X(PFNGLENABLEPROC, Enable)                                                                               \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                             \
+    X(PFNGLFINISHPROC, Finish)                                                                               \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                   \
     X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, FramebufferTextureLayer)                                             \
     X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                       \

@@ -1,0 +1,227 @@
+// Every technique from one view beside the reference: a contact sheet with error and time under each
+// picture, and the same figures as a Markdown table.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/image.h"
+#include "commands.h"
+#include "files.h"
+#include "metrics.h"
+#include "metrics_image.h"
+#include "session.h"
+#include "sheet.h"
+#include "timing.h"
+#include "trace.h"
+
+// The table's rows, and `layered` once more with twice the layers.
+enum { rungCount = vt_techniqueCount + 1 };
+
+typedef struct Rung {
+    char label[64];
+    int year;
+    uint8_t* pixels;
+    vtDirectionError directions;
+    vtPictureError picture;
+    double milliseconds;
+} Rung;
+
+typedef struct Ladder {
+    vtFrame frames[rungCount];
+    Rung rungs[rungCount];
+    vtReferenceImage truth;
+    uint8_t* truthPixels;
+    double traced;
+} Ladder;
+
+static void nameRungs(const vtFrame* base, Ladder* ladder)
+{
+    for (int i = 0; i < rungCount; ++i) {
+        bool extra = i == vt_techniqueCount;
+        vtFrame* frame = &ladder->frames[i];
+        *frame = *base;
+        frame->technique = extra ? vt_techniqueLayered : (vtTechnique)i;
+        frame->layers = extra && 2 * base->layers <= VT_MAX_LAYERS ? 2 * base->layers : base->layers;
+        const vtTechniqueInfo* info = vtTechnique_Info(frame->technique);
+        ladder->rungs[i].year = info->year;
+        if (frame->technique == vt_techniqueLayered) {
+            snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s, %d layers", info->id,
+                     frame->layers);
+        } else {
+            snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s", info->id);
+        }
+    }
+}
+
+static vtResult climb(vtSession* session, Ladder* ladder, int index, float* directions, vtError* error)
+{
+    Rung* rung = &ladder->rungs[index];
+    const vtFrame* frame = &ladder->frames[index];
+    size_t count = (size_t)frame->width * (size_t)frame->height;
+    rung->pixels = malloc(4 * count);
+    if (rung->pixels == NULL) {
+        return vtFail(error, vt_errorMemory, "ladder: out of memory for %d x %d", frame->width,
+                      frame->height);
+    }
+    vtResult result = vtRenderer_DrawImage(session->renderer, frame, rung->pixels, error);
+    if (result == vt_ok) {
+        result = vtRenderer_ReadDirections(session->renderer, directions, error);
+    }
+    if (result == vt_ok) {
+        result = vtCompareDirections(directions, ladder->truth.directions, count, &rung->directions, error);
+    }
+    if (result == vt_ok) {
+        result = vtComparePictureBytes(rung->pixels, ladder->truthPixels, 4, frame->width, frame->height,
+                                       &rung->picture, NULL, error);
+    }
+    return result;
+}
+
+static vtResult measure(const vtOptions* options, vtSession* session, Ladder* ladder, vtError* error)
+{
+    const vtFrame* frame = &ladder->frames[0];
+    float* directions = malloc(3 * sizeof(float) * (size_t)frame->width * (size_t)frame->height);
+    vtReference* reference = NULL;
+    vtResult result = directions != NULL ? vtTrace(options, &session->input, frame, &ladder->truth, error)
+                                         : vtFail(error, vt_errorMemory, "ladder: out of memory");
+    if (result == vt_ok) {
+        result = vtTracePixels(&ladder->truth, frame, &ladder->truthPixels, error);
+    }
+    for (int i = 0; i < rungCount && result == vt_ok; ++i) {
+        result = climb(session, ladder, i, directions, error);
+    }
+    if (result == vt_ok) {
+        result = vtCreateReference(&session->input.mesh, &reference, error);
+    }
+    if (result == vt_ok) {
+        double times[rungCount];
+        result = vtTimeFrames(session->renderer, ladder->frames, rungCount, reference, times, &ladder->traced,
+                              error);
+        for (int i = 0; i < rungCount && result == vt_ok; ++i) {
+            ladder->rungs[i].milliseconds = times[i];
+        }
+    }
+    vtDestroyReference(reference);
+    free(directions);
+    return result;
+}
+
+static void printTable(FILE* out, const vtOptions* options, const vtSession* session, const Ladder* ladder)
+{
+    const vtFrame* frame = &ladder->frames[0];
+    fprintf(out, "`%s`, %d x %d, index %g, %d events; reference (Embree) %.0f ms; %s\n\n", options->model,
+            frame->width, frame->height, (double)frame->ior, frame->maxEvents, ladder->traced,
+            vtRenderer_Info(session->renderer).device);
+    fprintf(out,
+            "| technique | year | within 1° | within 5° | mean error | median | lost | mean FLIP | time | "
+            "time / reference |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    for (int i = 0; i < rungCount; ++i) {
+        const Rung* r = &ladder->rungs[i];
+        fprintf(out, "| %s | %d | %.1f %% | %.1f %% | %.2f° | %.3f° | %.2f %% | %.3f | %.1f ms | %.2f |\n",
+                r->label, r->year, 100.0 * r->directions.within1, 100.0 * r->directions.within5,
+                r->directions.mean, r->directions.median, 100.0 * r->directions.lost, r->picture.flip,
+                r->milliseconds, r->milliseconds / ladder->traced);
+    }
+}
+
+static vtResult drawSheet(const Ladder* ladder, vtSheet* sheet, vtError* error)
+{
+    enum { columns = 3, largestTile = 512, gap = 12 };
+    const vtFrame* frame = &ladder->frames[0];
+    const int longer = frame->width > frame->height ? frame->width : frame->height;
+    const int factor = (longer + largestTile - 1) / largestTile;
+    const int across = frame->width / factor, down = frame->height / factor;
+    const int scale = across >= 360 ? 2 : 1, words = 3 * 12 * scale + gap;
+    const int rows = (rungCount + 1 + columns - 1) / columns;
+    vtResult result =
+        vtCreateSheet(columns * (across + gap) + gap, rows * (down + words + gap) + gap, 236, sheet, error);
+    for (int i = 0; i <= rungCount && result == vt_ok; ++i) {
+        int x = gap + i % columns * (across + gap), y = gap + i / columns * (down + words + gap);
+        bool isTruth = i == rungCount;
+        vtSheet_Paste(sheet, x, y, isTruth ? ladder->truthPixels : ladder->rungs[i].pixels, frame->width,
+                      frame->height, factor);
+        char lines[3][96] = {"reference, Embree", "", ""};
+        snprintf(lines[1], sizeof lines[1], "%.1f ms", ladder->traced);
+        if (!isTruth) {
+            const Rung* r = &ladder->rungs[i];
+            snprintf(lines[0], sizeof lines[0], "%s (%d)", r->label, r->year);
+            snprintf(lines[1], sizeof lines[1], "%.1f %% within 1 deg, mean %.1f deg",
+                     100.0 * r->directions.within1, r->directions.mean);
+            snprintf(lines[2], sizeof lines[2], "FLIP %.3f, %.1f ms", r->picture.flip, r->milliseconds);
+        }
+        for (int k = 0; k < 3; ++k) {
+            vtSheet_Text(sheet, x, y + down + 6 + 12 * scale * k, scale, lines[k]);
+        }
+    }
+    return result;
+}
+
+static vtResult writeSheet(const char* path, const Ladder* ladder, vtError* error)
+{
+    vtSheet sheet;
+    uint8_t* bytes = NULL;
+    size_t size;
+    vtResult result = drawSheet(ladder, &sheet, error);
+    if (result == vt_ok) {
+        result = vtEncodePng(sheet.pixels, 4, sheet.width, sheet.height, &bytes, &size, error);
+    }
+    if (result == vt_ok) {
+        result = vtWriteFile(path, bytes, size, error);
+    }
+    free(bytes);
+    vtDestroySheet(&sheet);
+    return result;
+}
+
+static vtResult writeTable(const vtOptions* options, const vtSession* session, const Ladder* ladder,
+                           vtError* error)
+{
+    char* text = NULL;
+    size_t size = 0;
+    FILE* memory = open_memstream(&text, &size);
+    if (memory == NULL) {
+        return vtFail(error, vt_errorMemory, "table: out of memory");
+    }
+    printTable(memory, options, session, ladder);
+    fclose(memory);
+    vtResult result = vtWriteFile(options->table != NULL ? options->table : "-", text, size, error);
+    free(text);
+    return result;
+}
+
+vtResult vtRunLadder(const vtOptions* given, vtError* error)
+{
+    vtOptions options = *given;
+    options.innerDistances = true;
+    vtSession session;
+    vtResult result = vtOpenSession(&options, &session, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    vtFrame frame;
+    Ladder* ladder = calloc(1, sizeof *ladder);
+    result = ladder != NULL ? vtMakeFrame(&options, &session.input, &frame, error)
+                            : vtFail(error, vt_errorMemory, "ladder: out of memory");
+    if (result == vt_ok) {
+        nameRungs(&frame, ladder);
+        result = measure(&options, &session, ladder, error);
+    }
+    if (result == vt_ok && options.output != NULL) {
+        result = writeSheet(options.output, ladder, error);
+    }
+    if (result == vt_ok && (options.table != NULL || options.output == NULL)) {
+        result = writeTable(&options, &session, ladder, error);
+    }
+    for (int i = 0; ladder != NULL && i < rungCount; ++i) {
+        free(ladder->rungs[i].pixels);
+    }
+    if (ladder != NULL) {
+        free(ladder->truthPixels);
+        vtDestroyReferenceImage(&ladder->truth);
+    }
+    free(ladder);
+    vtCloseSession(&session);
+    return result;
+}

@@ -1,0 +1,58 @@
+// The CPU reference: the same scene and view as the renderer, by exact ray tracing. Slow, and right.
+#pragma once
+
+#include "vitrine.h"
+
+/// A mesh prepared for tracing. It keeps copies of what it needs, so the mesh may go.
+typedef struct vtReference vtReference;
+
+/// Builds the search structure (about 0.1 s for 70 000 triangles). Fails with vt_errorMemory.
+vtResult vtCreateReference(const vtMesh* mesh, vtReference** reference, vtError* error);
+/// Safe on NULL.
+void vtDestroyReference(vtReference* reference);
+
+#define VT_MAX_SAMPLES 65536 ///< per pixel
+#define VT_MAX_THREADS 1024
+
+typedef struct vtReferenceDef {
+    const vtFrame* frame; ///< view, ior, maxEvents, width and height are used
+    /// NULL: directions, events, states and reflections only.
+    const vtEnvironment* environment;
+    /// Paths a pixel for the radiance, 1 to VT_MAX_SAMPLES; 0 and 1: one through the pixel's centre, more:
+    /// spread over the pixel (box filter), always the same ones.
+    int samples;
+    /// Unpolarised Fresnel reflection at every event, the first surface's included, chosen by chance for each
+    /// path. Concerns the radiance only.
+    bool fresnel;
+    int threads; ///< 1 to VT_MAX_THREADS; 0: as many as there are processors. The picture is the same.
+    /// Called now and then from the calling thread with the share done, 0 to 1; NULL: not at all.
+    void (*progress)(float share, void* userData);
+    void* userData; ///< passed to progress
+} vtReferenceDef;
+
+/// What was traced; rows from the top. All but the radiance is that of the pixel's centre without Fresnel
+/// reflection: the path that the real-time techniques imitate.
+typedef struct vtReferenceImage {
+    int width, height;
+    float* directions;    ///< 3 a pixel: unit exit direction, (0,0,0) background, (2,2,2) lost
+    uint8_t* events;      ///< surfaces met; 0 for background
+    uint8_t* states;      ///< VT_PATH_BACKGROUND, VT_PATH_EXITED or VT_PATH_LOST
+    uint8_t* reflections; ///< 1 where total internal reflection took part
+    float* radiance;      ///< 3 a pixel, linear, mean over the samples; a lost path shows the environment in
+                          ///< its last direction. NULL without an environment.
+} vtReferenceImage;
+
+/// Traces a picture. Fails with vt_errorArgument for a value out of range and with vt_errorMemory; then
+/// *image is zeroed.
+vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* def, vtReferenceImage* image,
+                           vtError* error);
+/// Frees what the image holds and zeroes it. Safe on a zeroed image.
+void vtDestroyReferenceImage(vtReferenceImage* image);
+
+/// The radiance as 4 * width * height bytes, sRGB clamped to 0..1, alpha 255. The image must have radiance.
+void vtReference_ToSrgb(const vtReferenceImage* image, uint8_t* rgba);
+
+/// For every vertex of the mesh that the reference was made from, how far the surface's far side is along
+/// the inward normal (d_N of Wyman 2005), vertexCount floats; 0 where nothing is met. Uses one thread.
+vtResult vtReference_InnerDistances(const vtReference* reference, const vtMesh* mesh, float* distances,
+                                    vtError* error);

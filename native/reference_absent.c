@@ -1,0 +1,41 @@
+// Stands in for the reference tracer where Embree is not installed: says so.
+#include "base/error.h"
+#include "reference.h"
+
+vtResult vtCreateReference(const vtMesh* mesh, vtReference** reference, vtError* error)
+{
+    (void)mesh;
+    *reference = NULL;
+    return vtFail(error, vt_errorArgument,
+                  "reference: this vitrine was built without Embree (libembree-dev)");
+}
+
+void vtDestroyReference(vtReference* reference)
+{
+    (void)reference;
+}
+
+vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* def, vtReferenceImage* image,
+                           vtError* error)
+{
+    (void)def;
+    *image = (vtReferenceImage){0};
+    return vtCreateReference(NULL, &(vtReference*){(vtReference*)reference}, error);
+}
+
+void vtDestroyReferenceImage(vtReferenceImage* image)
+{
+    (void)image;
+}
+
+void vtReference_ToSrgb(const vtReferenceImage* image, uint8_t* rgba)
+{
+    (void)image, (void)rgba;
+}
+
+vtResult vtReference_InnerDistances(const vtReference* reference, const vtMesh* mesh, float* distances,
+                                    vtError* error)
+{
+    (void)distances;
+    return vtCreateReference(mesh, &(vtReference*){(vtReference*)reference}, error);
+}
