@@ -156,7 +156,10 @@ bool searchLayers(vec3 origin, vec3 direction, bool inside, out SurfaceHit hit)
         bool isWall = wallBetween(inside ? pointA : pointB, inside ? pointB : pointA, direction, inside,
                                   origin + 0.5 * (a + b) * direction, wall);
         if (layer >= 0 || isWall) {
-            hit = layer >= 0 ? surface : wall;
+            hit = wall;
+            if (layer >= 0) { // WebGL's ?: takes no structures
+                hit = surface;
+            }
             return true;
         }
         // Case 2: remember on which side of each layer the ray now is, and go on from there.
