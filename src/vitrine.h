@@ -44,7 +44,7 @@ typedef enum vtResult {
 /// takes a vtError* accepts NULL.
 typedef struct vtError {
     vtResult result;
-    char message[512];
+    char message[1024];
 } vtError;
 
 // ------------------------------------------------------------------------------------------------ mesh

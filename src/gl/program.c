@@ -41,6 +41,18 @@ static void describeChunks(const vtChunk* const* chunks, int count, char* text, 
     }
 }
 
+/// Errors are one sentence: line ends become blanks, those at the end go.
+static void makeOneLine(char* text)
+{
+    size_t length = strlen(text);
+    while (length > 0 && (text[length - 1] == '\n' || text[length - 1] == ' ')) {
+        text[--length] = '\0';
+    }
+    for (size_t i = 0; i < length; ++i) {
+        text[i] = text[i] == '\n' ? ' ' : text[i];
+    }
+}
+
 static vtResult compile(const vtGL* gl, GLenum stage, const char* name, const vtChunk* const* chunks,
                         GLuint* shader, vtError* error)
 {
@@ -62,8 +74,9 @@ static vtResult compile(const vtGL* gl, GLenum stage, const char* name, const vt
     if (compiled) {
         return vt_ok;
     }
-    char log[256] = "", where[160];
+    char log[256] = "", where[480];
     gl->GetShaderInfoLog(*shader, sizeof log, NULL, log);
+    makeOneLine(log);
     describeChunks(all, count, where, sizeof where);
     gl->DeleteShader(*shader);
     *shader = 0;
@@ -96,6 +109,7 @@ vtResult vtCreateProgram(const vtGL* gl, const vtProgramDef* def, GLuint* progra
     if (!status) {
         char log[256] = "";
         gl->GetProgramInfoLog(linked, sizeof log, NULL, log);
+        makeOneLine(log);
         gl->DeleteProgram(linked);
         return vtFail(error, vt_errorContext, "GL: program '%s' does not link: %s", def->name, log);
     }
