@@ -65,6 +65,8 @@ static const Option table[] = {
      RENDER | LADDER | THESIS},
     {"fresnel", 0, kindFlag, AT(fresnel), 0, 0, NULL,
      "reference: with Fresnel reflection, by chance for each sample", RENDER},
+    {"events", 0, kindText, AT(events), 0, 0, "FILE",
+     "reference: number of events of each pixel's path, grey PNG, for 'compare --events'", RENDER},
     {"samples", 0, kindInteger, AT(samples), 1, 65536, "N", "reference: paths a pixel (1, its centre)",
      RENDER},
     {"reference", 0, kindText, AT(reference), 0, 0, "FILE", "fail where the picture differs from this one",

@@ -14,6 +14,7 @@ typedef struct vtOptions {
     const char* backend;
     const char* directions;
     const char* layerSheet;
+    const char* events;
     const char* reference;
     const char* table;
     const char* models;

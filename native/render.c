@@ -20,7 +20,7 @@ typedef struct Output {
     size_t size;
 } Output;
 
-enum { outputPicture, outputDirections, outputSheet, outputCount };
+enum { outputPicture, outputDirections, outputSheet, outputEvents, outputCount };
 
 static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, uint8_t* pixels, Output* output,
                             vtError* error)
@@ -110,6 +110,10 @@ static vtResult drawAll(const vtOptions* options, const vtFrame* frame, vtRender
 static vtResult rasterise(const vtOptions* options, vtFrame* frame, uint8_t** pixels, Output* outputs,
                           vtError* error)
 {
+    if (options->events != NULL) {
+        return vtFail(error, vt_errorArgument,
+                      "--events comes from the reference; add --technique reference");
+    }
     vtSession session;
     vtResult result = vtOpenSession(options, &session, error);
     if (result == vt_ok) {
@@ -151,6 +155,10 @@ static vtResult trace(const vtOptions* options, vtFrame* frame, uint8_t** pixels
     if (result == vt_ok && options->directions != NULL) {
         result = vtEncodePfm(image.directions, frame->width, frame->height, &outputs[outputDirections].bytes,
                              &outputs[outputDirections].size, error);
+    }
+    if (result == vt_ok && options->events != NULL) {
+        result = vtEncodePng(image.events, 1, frame->width, frame->height, &outputs[outputEvents].bytes,
+                             &outputs[outputEvents].size, error);
     }
     vtDestroyReferenceImage(&image);
     vtDestroyInput(&input);
@@ -218,9 +226,13 @@ static vtResult compareWithReference(const vtOptions* options, const vtFrame* fr
 vtResult vtRunRender(const vtOptions* options, vtError* error)
 {
     Output outputs[outputCount] = {
-        {.path = options->output}, {.path = options->directions}, {.path = options->layerSheet}};
+        [outputPicture] = {.path = options->output},
+        [outputDirections] = {.path = options->directions},
+        [outputSheet] = {.path = options->layerSheet},
+        [outputEvents] = {.path = options->events},
+    };
     if (options->output == NULL && options->directions == NULL && options->layerSheet == NULL &&
-        options->reference == NULL) {
+        options->reference == NULL && options->events == NULL) {
         return vtFail(error, vt_errorArgument, "no output given; add -o PICTURE.png");
     }
     if (options->output != NULL && strcmp(options->output, "-") == 0 && isatty(STDOUT_FILENO)) {

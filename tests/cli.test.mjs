@@ -298,6 +298,10 @@ describe('measuring', () => {
     assert.equal(directions.maskErrors, 0);
     assert.match(vitrine(['compare', 'drawn.pfm', 'truth.pfm']).text, /<= 1 deg/);
     assert.match(vitrine(['compare', '--help']).text, /--json/);
+    draw('counted', '-t', 'reference', '--events', 'events.png');
+    const split = JSON.parse(vitrine(['compare', 'drawn.pfm', 'truth.pfm', '--json', '--events', 'events.png']).text);
+    assert.ok(split.upTo4Events.pixels > 0 && split.upTo4Events.pixels <= directions.pixels);
+    refuses(['render', 'knot', ...small, '--events', 'events.png'], ['--technique reference']);
   });
 
   test('compare refuses what cannot be compared', () => {

@@ -156,7 +156,8 @@ static vtResult failSize(int width, int height, vtError* error)
 vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
                      size_t* size, vtError* error)
 {
-    assert(pixels != NULL && bytes != NULL && size != NULL && (channels == 3 || channels == 4));
+    assert(pixels != NULL && bytes != NULL && size != NULL &&
+           (channels == 1 || channels == 3 || channels == 4));
     *bytes = NULL;
     *size = 0;
     if (!sizeIsUsable(width, height)) {

@@ -18,7 +18,7 @@ float vtLinearToSrgb(float linear);
 vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, float** pixels, int* width,
                              int* height, vtError* error);
 
-/// Encodes 8-bit pixels, top row first; `channels` is 3 (RGB) or 4 (RGBA).
+/// Encodes 8-bit pixels, top row first; `channels` is 1 (grey), 3 (RGB) or 4 (RGBA).
 vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
                      size_t* size, vtError* error);
 

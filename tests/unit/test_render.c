@@ -148,12 +148,12 @@ static void whiteEnvironmentStaysWhite(void** state)
 }
 
 // Two refractions of a ball of radius 1: the exit direction in closed form.
-static void sphereFollowsTheClosedForm(void** state)
+static void sphereFollowsTheClosedForm(Fixture* fixture, vtTechnique technique)
 {
-    Fixture* fixture = *state;
     setShape(fixture->renderer, "sphere");
     setEnvironment(fixture->renderer, "checker");
     vtFrame frame = smallFrame();
+    frame.technique = technique;
     draw(fixture, &frame);
     int glass = 0, within = 0, lost = 0;
     for (int p = 0; p < side * side; ++p) {
@@ -179,6 +179,16 @@ static void sphereFollowsTheClosedForm(void** state)
     assert_true(glass > side * side / 3);
     assert_true(within >= glass * 98 / 100);
     assert_true(lost <= glass / 200);
+}
+
+static void layeredSphereFollowsTheClosedForm(void** state)
+{
+    sphereFollowsTheClosedForm(*state, vt_techniqueLayered);
+}
+
+static void oliveirasSphereFollowsTheClosedForm(void** state)
+{
+    sphereFollowsTheClosedForm(*state, vt_techniqueOliveira);
 }
 
 // A thick pane: what leaves by the far face is parallel to what came in.
@@ -391,7 +401,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(indexOneLeavesTheEnvironmentBare),
         cmocka_unit_test(whiteEnvironmentStaysWhite),
-        cmocka_unit_test(sphereFollowsTheClosedForm),
+        cmocka_unit_test(layeredSphereFollowsTheClosedForm),
+        cmocka_unit_test(oliveirasSphereFollowsTheClosedForm),
         cmocka_unit_test(slabKeepsTheDirection),
         cmocka_unit_test(convexNeedsTwoLayersOnly),
         cmocka_unit_test(everyDirectionIsUnitLostOrBackground),
