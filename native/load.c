@@ -146,6 +146,7 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->refine = options->refine;
     frame->maxEvents = options->maxEvents;
     frame->layerSize = options->layerSize;
+    frame->exposure = options->exposure;
     frame->transmittance = options->transmittance;
     frame->maxTransmittance = options->maxTransmittance;
     frame->minTransmittance = options->minTransmittance;

@@ -52,6 +52,7 @@ static const Option table[] = {
      SCENE},
     {"environment", 'e', kindText, AT(environment), 0, 0, "NAME|FILE",
      "see 'vitrine list', or a .hdr, .png or .jpg, equirectangular (studio)", SCENE},
+    {"exposure", 0, kindNumber, AT(exposure), -20, 20, "EV", "brightens by a factor of 2 each (0)", SCENE},
     {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)", SCENE},
     {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)", SCENE},
     {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", SCENE},

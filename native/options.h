@@ -19,7 +19,7 @@ typedef struct vtOptions {
     const char* table;
     const char* models;
     const char* backSurface;
-    float ior, fov;
+    float ior, fov, exposure;
     float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
     vtVec3 camera, target;
     bool hasCamera, hasTarget;

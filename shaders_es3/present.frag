@@ -23,7 +23,7 @@ vec3 pictureColor(uvec4 path)
     vec3 behind = environmentRadiance(u_output.z, u_environment, direction);
     uvec2 light = texelFetch(u_light, ivec2(gl_FragCoord.xy), 0).rg;
     vec2 first = unpackHalf2x16(light.x);
-    return linearToSrgb(behind * first.x + vec3(first.y, unpackHalf2x16(light.y)));
+    return linearToSrgb(u_optics.z * (behind * first.x + vec3(first.y, unpackHalf2x16(light.y))));
 }
 
 vec3 analysisColor(uvec4 path)
@@ -61,5 +61,6 @@ void main()
     vec3 color = u_output.x == VT_OUTPUT_PICTURE    ? pictureColor(path)
                  : u_output.x == VT_OUTPUT_ANALYSIS ? analysisColor(path)
                                                     : layerColor();
-    o_color = vec4(color, 1.0);
+    bool seesThrough = u_output.w != 0 && int(path.w) == VT_PATH_BACKGROUND && u_output.x <= VT_OUTPUT_ANALYSIS;
+    o_color = seesThrough ? vec4(0.0) : vec4(color, 1.0);
 }

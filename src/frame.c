@@ -61,6 +61,7 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         {"power", frame->power, 0, 100},
         {"wall-thickness", frame->wallThickness, 0, 1e6},
         {"back-surface", frame->backSurface, vt_backSecond, vt_backFarthest},
+        {"exposure", frame->exposure, -20, 20},
         {"width", frame->width, 1, 16384},
         {"height", frame->height, 1, 16384},
         {"layer-size", frame->layerSize, frame->layerSize == 0 ? 0 : 16, 8192},

@@ -216,11 +216,11 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtError
     float wall = frame->wallThickness > 0.0f ? frame->wallThickness
                                              : 0.06f * fmaxf(extent.x, fmaxf(extent.y, extent.z));
     vtFrameUniforms uniforms = {
-        .optics = {frame->ior, frame->transmittance},
+        .optics = {frame->ior, frame->transmittance, exp2f(frame->exposure)},
         .kay = {frame->maxTransmittance, frame->minTransmittance, frame->power, wall},
         .search = {vtFrame_LayerCount(frame), frame->steps, frame->refine, frame->maxEvents},
         .size = {frame->width, frame->height, layerWidth, layerHeight},
-        .output = {frame->output, frame->layer, renderer->environment},
+        .output = {frame->output, frame->layer, renderer->environment, frame->transparentBackground},
     };
     setCamera(&uniforms, &frame->view);
     setFrustum(uniforms.pictureFrustum, uniforms.pictureDepth, &picture);

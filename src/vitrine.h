@@ -236,7 +236,9 @@ typedef struct vtFrame {
     float power;            ///< kay-nonlinear, 0 to 100; default 3
     float wallThickness;    ///< kay-thickness, the model's unit; 0: 6 % of the object's largest extent
     int width, height;      ///< picture, pixels, 1 to 16384
-    uint32_t framebuffer;   ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
+    float exposure; ///< EV, -20 to 20: the picture's linear light is multiplied by 2^exposure; default 0
+    bool transparentBackground; ///< alpha 0 where no glass is seen; glass goes on showing its environment
+    uint32_t framebuffer; ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
 } vtFrame;
 
 /// 512 x 512, technique layered, and the defaults documented at each field; the view looks at the origin.
@@ -277,9 +279,9 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
 /// Leaves that framebuffer bound, depth test, blending and face culling off.
 vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error);
 
-/// Draws one frame off screen and reads it back: 4 * width * height bytes, sRGB with alpha 255, top row
-/// first. frame->framebuffer is ignored; framebuffer 0 is bound afterwards. With rgba NULL nothing is read:
-/// it returns once the GPU has finished, for timing.
+/// Draws one frame off screen and reads it back: 4 * width * height bytes, sRGB with straight alpha (255
+/// unless the background is transparent), top row first. frame->framebuffer is ignored; framebuffer 0 is
+/// bound afterwards. With rgba NULL nothing is read: it returns once the GPU has finished, for timing.
 vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error);
 
 /// Exit directions of the last frame: 3 * width * height floats, top row first. Unit world directions;

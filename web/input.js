@@ -1,9 +1,9 @@
 // Keys, fingers and the wheel on the canvas. The mouse's drag reaches the core through GLFW. `call` calls the
-// core: see Orbit, Zoom and ResetView in page.c.
+// core: see Orbit and Zoom in viewer.c.
 const radiansPerPixel = 0.01;
 const radiansPerKey = Math.PI / 36;
 
-export function listenToInput(canvas, call) {
+export function listenToInput(canvas, call, resetView) {
   const keys = {
     ArrowLeft: () => call('Orbit', -radiansPerKey, 0),
     ArrowRight: () => call('Orbit', radiansPerKey, 0),
@@ -12,7 +12,7 @@ export function listenToInput(canvas, call) {
     '+': () => call('Zoom', 0.9),
     '=': () => call('Zoom', 0.9),
     '-': () => call('Zoom', 1 / 0.9),
-    Home: () => call('ResetView'),
+    Home: resetView,
   };
   canvas.addEventListener('keydown', (event) => {
     if (!Object.hasOwn(keys, event.key) || event.ctrlKey || event.metaKey || event.altKey) return;

@@ -7,10 +7,12 @@ const element = (id) => document.getElementById(id);
 const canvas = element('canvas');
 const panel = document.querySelector('.panel');
 const sliders = ['layers', 'steps', 'ior'];
+const outputPicture = 0, outputAnalysis = 1; // of vtOutput
 const largestScale = 2; // canvas pixels per CSS pixel
 
 const state = { model: 'knot', environment: 'studio' };
 let core; // the module
+let page, viewer; // handles in it
 let stopped = false; // no context any more
 let fitted; // canvas width, height, and the share of it that is free
 let milliseconds = 0;
@@ -24,7 +26,7 @@ function showError(text) {
 
 function call(name, ...values) {
   const types = values.map((value) => (typeof value === 'string' ? 'string' : 'number'));
-  return core.ccall(`vtPage_${name}`, 'number', types, values);
+  return core.ccall(`vtViewer_${name}`, 'number', ['number', ...types], [viewer, ...values]);
 }
 
 /** A call that answers with a sentence, or nothing: the sentence is shown. True where all is well. */
@@ -32,6 +34,12 @@ function attempt(name, ...values) {
   const answer = call(name, ...values);
   showError(answer ? core.UTF8ToString(answer) : '');
   return answer === 0;
+}
+
+/** Frames the whole object within the part of the canvas that no panel covers. */
+function resetView() {
+  const [width, height, share] = fitted;
+  call('ResetView', (share * width) / height);
 }
 
 function info() {
@@ -45,8 +53,9 @@ function showState() {
     element(id).value = now[id];
     element(`${id}-value`).textContent = id === 'ior' ? now.ior.toFixed(2) : now[id];
   }
-  element('analysis').checked = now.analysis;
-  element('legend').hidden = !now.analysis;
+  const analysis = now.output === outputAnalysis;
+  element('analysis').checked = analysis;
+  element('legend').hidden = !analysis;
   const parts = [`${now.triangles.toLocaleString('en')} triangles`, `layers ${now.layerWidth} × ${now.layerHeight}`];
   if (milliseconds > 0) {
     parts.push(`${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms per frame`);
@@ -69,8 +78,8 @@ function keepInAddress() {
 // ------------------------------------------------------------------------------------------------ settings
 
 function setGlass(values) {
-  const { ior, layers, steps, maxEvents, analysis } = { ...info(), ...values };
-  const done = attempt('SetGlass', ior, layers, steps, maxEvents, Number(analysis));
+  const { technique, ior, layers, steps, maxEvents, output } = { ...info(), ...values };
+  const done = attempt('SetGlass', technique, ior, layers, steps, maxEvents, output, 0, 0);
   showState();
   return done;
 }
@@ -79,6 +88,7 @@ function setGlass(values) {
 function choose(kind, name) {
   const done = attempt(kind === 'model' ? 'SetShape' : 'SetEnvironment', name);
   if (done) {
+    if (kind === 'model') resetView();
     state[kind] = name;
     element(kind).querySelector('.file')?.remove();
   }
@@ -99,6 +109,7 @@ async function openFile(file, kind) {
     showError(`${file.name}: cannot be read: ${reason.message}`);
   }
   if (!done) return;
+  if (kind === 'model') resetView();
   const select = element(kind);
   select.querySelector('.file')?.remove();
   select.append(new Option(file.name, ''));
@@ -143,8 +154,8 @@ function listenToControls() {
     element(id).addEventListener('input', (event) => setGlass({ [id]: Number(event.target.value) }));
     element(id).addEventListener('change', keepInAddress);
   }
-  element('analysis').addEventListener('change', (event) => setGlass({ analysis: event.target.checked }));
-  element('reset').addEventListener('click', () => call('ResetView'));
+  element('analysis').addEventListener('change', (event) => setGlass({ output: event.target.checked ? outputAnalysis : outputPicture }));
+  element('reset').addEventListener('click', resetView);
   element('save').addEventListener('click', savePicture);
   for (const [id, kind] of [['model-file', 'model'], ['image-file', 'environment']]) {
     element(id).addEventListener('change', async ({ target }) => {
@@ -176,7 +187,7 @@ function fitCanvas() {
   const fit = [...canvasSize(), Math.max(0.5, 1 - (2 * covered) / canvas.clientWidth)];
   if (String(fit) === String(fitted)) return;
   [canvas.width, canvas.height] = fitted = fit;
-  const answer = call('Resize', ...fit);
+  const answer = call('Resize', canvas.width, canvas.height);
   if (answer) showError(core.UTF8ToString(answer));
 }
 
@@ -198,7 +209,7 @@ function onFrame() {
   if (drawing) return;
   fitCanvas();
   const start = performance.now();
-  const drawn = call('Tick');
+  const drawn = core._vtPage_Tick(page);
   if (drawn < 0) showError(core.UTF8ToString(call('Error')));
   if (drawn <= 0) return;
   drawing = true;
@@ -218,7 +229,10 @@ async function main() {
   canvas.addEventListener('webglcontextrestored', () => location.reload());
 
   core = await createVitrine({ canvas });
-  if (!attempt('Start', ...canvasSize())) {
+  page = core._vtPage_Start(...canvasSize());
+  showError(core.UTF8ToString(core._vtPage_Error(page)));
+  viewer = core._vtPage_Viewer(page);
+  if (element('error').textContent !== '') {
     element('info').textContent = 'No picture.';
     element('controls').inert = true;
     return;
@@ -240,7 +254,7 @@ async function main() {
   }
   showError(sentences.join('. '));
 
-  listenToInput(canvas, call);
+  listenToInput(canvas, call, resetView);
   listenToControls();
   requestAnimationFrame(onFrame);
   const setView = (...numbers) => attempt('SetView', ...numbers); // eye x, y, z, target x, y, z, degrees

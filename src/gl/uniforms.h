@@ -16,11 +16,11 @@ typedef struct vtFrameUniforms {
     float layerDepth[4];
     float boundsMin[4]; ///< the object's box, world
     float boundsMax[4];
-    float optics[4];   ///< index of refraction, transmittance, 0, 0
+    float optics[4];   ///< index of refraction, transmittance, exposure factor, 0
     float kay[4];      ///< largest and smallest transmittance, power, wall thickness
     int32_t search[4]; ///< layers, linear steps, binary steps, events
     int32_t size[4];   ///< picture width, height, layer width, height
-    int32_t output[4]; ///< vtOutput, layer, vtEnvironmentKind, 0
+    int32_t output[4]; ///< vtOutput, layer, vtEnvironmentKind, transparent background
 } vtFrameUniforms;
 
 static_assert(sizeof(vtFrameUniforms) == 16 * 16, "vtFrameUniforms must mirror the std140 block");

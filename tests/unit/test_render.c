@@ -384,6 +384,49 @@ static void layersAlternateBetweenFrontAndBack(void** state)
     assert_int_equal(fixture->pixels[centre], 31); // no third layer: the background colour
 }
 
+static void transparentBackgroundLeavesTheGlassAsItIs(void** state)
+{
+    Fixture* fixture = *state;
+    setShape(fixture->renderer, "knot");
+    setEnvironment(fixture->renderer, "sky");
+    vtFrame frame = smallFrame();
+    draw(fixture, &frame);
+    uint8_t* opaque = malloc(sizeof fixture->pixels);
+    memcpy(opaque, fixture->pixels, sizeof fixture->pixels);
+    frame.transparentBackground = true;
+    draw(fixture, &frame);
+    int glass = 0;
+    for (int p = 0; p < side * side; ++p) {
+        bool isGlass = fixture->directions[3 * p] != 0.0f || fixture->directions[3 * p + 1] != 0.0f;
+        const uint8_t nothing[4] = {0, 0, 0, 0};
+        assert_memory_equal(fixture->pixels + 4 * p, isGlass ? opaque + 4 * p : nothing, 4);
+        assert_int_equal(opaque[4 * p + 3], 255);
+        glass += isGlass;
+    }
+    assert_true(glass > side);
+    free(opaque);
+}
+
+static void exposureMultipliesLinearLight(void** state)
+{
+    Fixture* fixture = *state;
+    float grey[3] = {0.1f, 0.2f, 0.3f};
+    vtEnvironment environment = {vt_environmentImage, grey, 1, 1};
+    vtError error;
+    assert_ok(vtRenderer_SetEnvironment(fixture->renderer, &environment, &error), error);
+    setShape(fixture->renderer, "sphere");
+    for (int ev = -1; ev <= 2; ++ev) {
+        vtFrame frame = smallFrame();
+        frame.exposure = (float)ev;
+        draw(fixture, &frame);
+        for (int c = 0; c < 3; ++c) {
+            float wanted = 255.0f * vtLinearToSrgb(fminf(1.0f, grey[c] * exp2f((float)ev)));
+            assert_near((float)fixture->pixels[c], wanted, 1.1f);
+            assert_near((float)fixture->pixels[4 * (side / 2 * side + side / 2) + c], wanted, 1.1f);
+        }
+    }
+}
+
 static void badFramesDrawNothing(void** state)
 {
     Fixture* fixture = *state;
@@ -411,6 +454,8 @@ int main(void)
         cmocka_unit_test(pictureDoesNotDependOnTheFramesBefore),
         cmocka_unit_test(twoRenderersLiveSideBySide),
         cmocka_unit_test(layersAlternateBetweenFrontAndBack),
+        cmocka_unit_test(transparentBackgroundLeavesTheGlassAsItIs),
+        cmocka_unit_test(exposureMultipliesLinearLight),
         cmocka_unit_test(badFramesDrawNothing),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);

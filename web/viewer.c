@@ -1,0 +1,242 @@
+// What the page and the element call, one viewer a canvas. Whoever made the canvas's context makes it current
+// before each call. A call that can fail returns the sentence of its vtError, or NULL; what was shown before
+// then stays. Bytes handed over from JavaScript are freed here.
+#include "viewer.h"
+
+#include <emscripten.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "base/math.h"
+
+static const char* sentence(const vtViewer* viewer, vtResult result)
+{
+    return result == vt_ok ? NULL : viewer->error.message;
+}
+
+EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height)
+{
+    vtViewer* viewer = calloc(1, sizeof *viewer);
+    if (viewer != NULL) {
+        viewer->frame = vtDefaultFrame();
+        viewer->frame.width = width;
+        viewer->frame.height = height;
+        vtRendererDef def = {NULL}; // on the web GL is linked
+        vtCreateRenderer(&def, &viewer->renderer, &viewer->error);
+    }
+    return viewer;
+}
+
+EMSCRIPTEN_KEEPALIVE void vtViewer_Destroy(vtViewer* viewer)
+{
+    if (viewer != NULL) {
+        vtDestroyRenderer(viewer->renderer);
+        vtDestroyMesh(&viewer->mesh);
+        free(viewer->image);
+        free(viewer);
+    }
+}
+
+/// The sentence of the call that failed last; empty where none did.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_Error(const vtViewer* viewer)
+{
+    return viewer->error.message;
+}
+
+/// Looks at the whole object from the default direction, for a picture of that aspect.
+EMSCRIPTEN_KEEPALIVE void vtViewer_ResetView(vtViewer* viewer, float aspect)
+{
+    viewer->frame.view = vtFrameMesh(&viewer->mesh, viewer->frame.view.fovY, aspect);
+    viewer->changed = true;
+}
+
+/// Takes the mesh over; where it cannot be uploaded, the one before stays.
+static vtResult showMesh(vtViewer* viewer, vtMesh* mesh)
+{
+    vtResult result = vtRenderer_SetMesh(viewer->renderer, mesh, &viewer->error);
+    if (result != vt_ok) {
+        vtDestroyMesh(mesh);
+        return result;
+    }
+    vtDestroyMesh(&viewer->mesh);
+    viewer->mesh = *mesh;
+    viewer->changed = true;
+    return vt_ok;
+}
+
+/// A built-in shape by name.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetShape(vtViewer* viewer, const char* name)
+{
+    vtMesh mesh;
+    vtResult result = vtCreateShape(name, &mesh, &viewer->error);
+    return sentence(viewer, result == vt_ok ? showMesh(viewer, &mesh) : result);
+}
+
+/// The contents of a .glb or self-contained .gltf; its index of refraction, if it has one, becomes the
+/// viewer's.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenModel(vtViewer* viewer, uint8_t* bytes, size_t size,
+                                                    const char* name)
+{
+    vtModel model;
+    vtModelDef def = {.bytes = bytes, .size = size, .name = name};
+    vtResult result = vtLoadModel(&def, &model, &viewer->error);
+    free(bytes);
+    if (result == vt_ok) {
+        result = showMesh(viewer, &model.mesh);
+    }
+    if (result == vt_ok && model.ior > 0.0f) {
+        viewer->frame.ior = model.ior;
+    }
+    return sentence(viewer, result);
+}
+
+static vtResult showEnvironment(vtViewer* viewer, vtEnvironment* environment)
+{
+    vtResult result = vtRenderer_SetEnvironment(viewer->renderer, environment, &viewer->error);
+    vtDestroyEnvironment(environment);
+    viewer->changed |= result == vt_ok;
+    return result;
+}
+
+/// A built-in environment by name.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetEnvironment(vtViewer* viewer, const char* name)
+{
+    vtEnvironment environment;
+    vtResult result = vtCreateEnvironment(name, &environment, &viewer->error);
+    return sentence(viewer, result == vt_ok ? showEnvironment(viewer, &environment) : result);
+}
+
+/// The contents of an equirectangular .hdr, .png or .jpg.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenEnvironment(vtViewer* viewer, uint8_t* bytes, size_t size,
+                                                          const char* name)
+{
+    vtEnvironment environment;
+    vtResult result = vtLoadEnvironment(bytes, size, name, &environment, &viewer->error);
+    free(bytes);
+    return sentence(viewer, result == vt_ok ? showEnvironment(viewer, &environment) : result);
+}
+
+/// Takes a frame over if it is valid and its technique has what it needs.
+static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
+{
+    vtResult result = vtValidateFrame(frame, &viewer->error);
+    if (result == vt_ok && frame->technique == vt_techniqueWyman && viewer->mesh.indexCount > 0 &&
+        viewer->mesh.innerDistances == NULL) {
+        result = vtComputeInnerDistances(&viewer->mesh, &viewer->error);
+        if (result == vt_ok) {
+            result = vtRenderer_SetMesh(viewer->renderer, &viewer->mesh, &viewer->error);
+        }
+    }
+    if (result == vt_ok) {
+        viewer->frame = *frame;
+        viewer->changed = true;
+    }
+    return result;
+}
+
+/// Technique by its id and the settings of the glass, ranges as in vtFrame.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, float ior,
+                                                   int layers, int steps, int maxEvents, int output,
+                                                   float exposure, bool transparent)
+{
+    vtFrame frame = viewer->frame;
+    frame.technique = vtFindTechnique(technique);
+    if (frame.technique == vt_techniqueCount) {
+        vtFail(&viewer->error, vt_errorArgument, "technique '%s' is not in the table", technique);
+        return viewer->error.message;
+    }
+    frame.ior = ior;
+    frame.layers = layers;
+    frame.steps = steps;
+    frame.maxEvents = maxEvents;
+    frame.output = (vtOutput)output;
+    frame.exposure = exposure;
+    frame.transparentBackground = transparent;
+    return sentence(viewer, showFrame(viewer, &frame));
+}
+
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetView(vtViewer* viewer, float eyeX, float eyeY, float eyeZ,
+                                                  float targetX, float targetY, float targetZ, float fovY)
+{
+    vtFrame frame = viewer->frame;
+    frame.view = (vtView){{eyeX, eyeY, eyeZ}, {targetX, targetY, targetZ}, fovY};
+    return sentence(viewer, showFrame(viewer, &frame));
+}
+
+/// Turns the eye about the object, radians.
+EMSCRIPTEN_KEEPALIVE void vtViewer_Orbit(vtViewer* viewer, float yaw, float pitch)
+{
+    viewer->frame.view = vtView_Orbit(viewer->frame.view, yaw, pitch);
+    viewer->changed = true;
+}
+
+/// Moves the eye towards (factor < 1) or away from the object, within a tenth and ten times its size.
+EMSCRIPTEN_KEEPALIVE void vtViewer_Zoom(vtViewer* viewer, float factor)
+{
+    float size = vtLength(vtSub(viewer->mesh.boundsMax, viewer->mesh.boundsMin));
+    float distance = vtLength(vtSub(viewer->frame.view.eye, viewer->frame.view.target));
+    float wanted = vtClamp(distance * factor, 0.1f * size, 10.0f * size);
+    viewer->frame.view = vtView_Zoom(viewer->frame.view, wanted / distance);
+    viewer->changed = true;
+}
+
+/// The canvas now has width x height pixels, and is cleared: tick before the browser paints.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_Resize(vtViewer* viewer, int width, int height)
+{
+    vtFrame frame = viewer->frame;
+    frame.width = width;
+    frame.height = height;
+    return sentence(viewer, showFrame(viewer, &frame));
+}
+
+EMSCRIPTEN_KEEPALIVE int vtViewer_Tick(vtViewer* viewer)
+{
+    if (!viewer->changed) {
+        return 0;
+    }
+    viewer->changed = false;
+    if (vtRenderer_Draw(viewer->renderer, &viewer->frame, &viewer->error) != vt_ok) {
+        return -1;
+    }
+    ++viewer->drawCount;
+    return 1;
+}
+
+/// The present view and settings at another size: 4 * width * height bytes, top row first, valid until the
+/// next call; NULL on failure, see vtViewer_Error.
+EMSCRIPTEN_KEEPALIVE const uint8_t* vtViewer_Image(vtViewer* viewer, int width, int height)
+{
+    vtFrame frame = viewer->frame;
+    frame.width = width;
+    frame.height = height;
+    if (vtValidateFrame(&frame, &viewer->error) != vt_ok) {
+        return NULL;
+    }
+    uint8_t* image = realloc(viewer->image, 4 * (size_t)width * (size_t)height);
+    if (image == NULL) {
+        vtFail(&viewer->error, vt_errorMemory, "picture: out of memory for %d x %d", width, height);
+        return NULL;
+    }
+    viewer->image = image;
+    bool drawn = vtRenderer_DrawImage(viewer->renderer, &frame, image, &viewer->error) == vt_ok;
+    return drawn ? image : NULL;
+}
+
+/// What is shown, as JSON.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_Info(vtViewer* viewer)
+{
+    const vtFrame* frame = &viewer->frame;
+    const vtView* view = &frame->view;
+    vtRendererInfo info = vtRenderer_Info(viewer->renderer);
+    snprintf(viewer->info, sizeof viewer->info,
+             "{\"triangles\":%u,\"openEdges\":%u,\"layerWidth\":%d,\"layerHeight\":%d,\"drawCount\":%d,"
+             "\"technique\":\"%s\",\"ior\":%.6g,\"layers\":%d,\"steps\":%d,\"maxEvents\":%d,\"output\":%d,"
+             "\"eye\":[%.6g,%.6g,%.6g],\"target\":[%.6g,%.6g,%.6g],\"fov\":%.6g}",
+             viewer->mesh.indexCount / 3, viewer->mesh.openEdgeCount, info.layerWidth, info.layerHeight,
+             viewer->drawCount, vtTechnique_Info(frame->technique)->id, (double)frame->ior, frame->layers,
+             frame->steps, frame->maxEvents, (int)frame->output, (double)view->eye.x, (double)view->eye.y,
+             (double)view->eye.z, (double)view->target.x, (double)view->target.y, (double)view->target.z,
+             (double)view->fovY);
+    return viewer->info;
+}

@@ -1,0 +1,22 @@
+// A renderer with its scene and the frame to draw next: the part of a web page that is written in C.
+#pragma once
+
+#include "vitrine.h"
+
+typedef struct vtViewer {
+    vtRenderer* renderer;
+    vtMesh mesh;   ///< on the GPU as well; kept for its numbers
+    vtFrame frame; ///< of the canvas
+    bool changed;  ///< since the frame drawn last
+    int drawCount;
+    uint8_t* image; ///< the last one of vtViewer_Image
+    vtError error;
+    char info[512];
+} vtViewer;
+
+/// Compiles the shaders in the current context; NULL where memory is out. See vtViewer_Error.
+vtViewer* vtViewer_Create(int width, int height);
+void vtViewer_Destroy(vtViewer* viewer);
+
+/// Draws the canvas if anything changed. 1: drawn, 0: nothing to do, -1: failed, see vtViewer_Error.
+int vtViewer_Tick(vtViewer* viewer);
