@@ -40,8 +40,8 @@ static vtVec3 interpolate(const float* values, const uint32_t* corners, float u,
 }
 
 /// The nearest surface of each active path. `coherent`: neighbours go much the same way.
-static void intersect(RTCScene scene, const vtPath* paths, const int* active, int count, bool coherent,
-                      vtSurfaceHit* hits)
+static void intersect(RTCScene scene, const vtReferencePath* paths, const int* active, int count,
+                      bool coherent, vtSurfaceHit* hits)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -53,7 +53,7 @@ static void intersect(RTCScene scene, const vtPath* paths, const int* active, in
     for (int first = 0; first < count; first += packet) {
         for (int lane = 0; lane < packet; ++lane) {
             valid[lane] = first + lane < count ? -1 : 0;
-            const vtPath* path = &paths[active[valid[lane] ? first + lane : first]];
+            const vtReferencePath* path = &paths[active[valid[lane] ? first + lane : first]];
             query.ray.org_x[lane] = path->origin.x;
             query.ray.org_y[lane] = path->origin.y;
             query.ray.org_z[lane] = path->origin.z;
@@ -96,7 +96,7 @@ static vtVec3 mirror(vtVec3 I, vtVec3 N)
 }
 
 /// As vtMeetSurface, but light that could pass is reflected with the probability of Fresnel's equations.
-static void meetByChance(vtPath* path, vtVec3 N, vtVec3 G, float ior)
+static void meetByChance(vtReferencePath* path, vtVec3 N, vtVec3 G, float ior)
 {
     const bool wasInside = path->inside;
     const vtVec3 I = path->direction;
@@ -120,7 +120,7 @@ static void meetByChance(vtPath* path, vtVec3 N, vtVec3 G, float ior)
 
 /// Whether a surface found is one that the path meets, and not the one it is just leaving. `facing` is above
 /// zero where the path comes from behind.
-static bool accept(const vtReference* reference, vtPath* path, const vtSurfaceHit* hit, float facing)
+static bool accept(const vtReference* reference, vtReferencePath* path, const vtSurfaceHit* hit, float facing)
 {
     const bool wrongSide = path->inside ? facing <= 0.0f : facing >= 0.0f;
     const bool near = hit->distance < selfDistance * reference->extent;
@@ -135,7 +135,7 @@ static bool accept(const vtReference* reference, vtPath* path, const vtSurfaceHi
 }
 
 /// Takes a path through what it met; false where it ends.
-static bool advance(const vtReference* reference, const vtPathRules* rules, vtPath* path,
+static bool advance(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
                     const vtSurfaceHit* hit)
 {
     if (hit->triangle == VT_NO_TRIANGLE) {
@@ -175,7 +175,7 @@ static bool advance(const vtReference* reference, const vtPathRules* rules, vtPa
     return true;
 }
 
-void vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtPath* paths, int count)
+void vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtReferencePath* paths, int count)
 {
     int active[VT_PATH_BATCH];
     vtSurfaceHit hits[VT_PATH_BATCH];

@@ -26,7 +26,7 @@ typedef struct vtSurfaceHit {
 } vtSurfaceHit;
 
 /// A path between two events.
-typedef struct vtPath {
+typedef struct vtReferencePath {
     vtVec3 origin, direction;
     float near;        ///< distance from which surfaces count
     uint32_t triangle; ///< where it starts, or VT_NO_TRIANGLE at the eye
@@ -35,7 +35,7 @@ typedef struct vtPath {
     uint8_t state; ///< VT_PATH_..., once it has ended
     bool inside, reflected;
     bool nudged; ///< see vtNudge
-} vtPath;
+} vtReferencePath;
 
 typedef struct vtPathRules {
     float ior;
@@ -47,12 +47,13 @@ typedef struct vtPathRules {
 #define VT_PATH_BATCH 256
 
 /// Follows paths from the eye (only origin, direction and random need be set) until each has ended.
-void vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtPath* paths, int count);
+void vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtReferencePath* paths, int count);
 
 /// A path that starts at the eye.
-static inline vtPath vtMakePath(vtVec3 origin, vtVec3 direction, uint32_t random)
+static inline vtReferencePath vtMakePath(vtVec3 origin, vtVec3 direction, uint32_t random)
 {
-    return (vtPath){.origin = origin, .direction = direction, .triangle = VT_NO_TRIANGLE, .random = random};
+    return (vtReferencePath){
+        .origin = origin, .direction = direction, .triangle = VT_NO_TRIANGLE, .random = random};
 }
 
 /// The triangle's own outward normal, not of unit length.

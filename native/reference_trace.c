@@ -58,7 +58,7 @@ static size_t pixelIndex(const Job* job, int column, int row)
 
 // ----------------------------------------------------------------------------------------- pixel centres
 
-static void storePath(vtReferenceImage* image, size_t pixel, const vtPath* path)
+static void storePath(vtReferenceImage* image, size_t pixel, const vtReferencePath* path)
 {
     vtVec3 d = path->direction;
     if (path->state == VT_PATH_BACKGROUND) {
@@ -89,7 +89,7 @@ static void traceCentres(const Job* job, const Tile* tile)
 {
     const vtPathRules rules = {job->def->frame->ior, job->def->frame->maxEvents, false};
     const bool colour = job->image->radiance != NULL && job->samples == 1 && !job->def->fresnel;
-    vtPath paths[VT_PATH_BATCH];
+    vtReferencePath paths[VT_PATH_BATCH];
     int count = 0;
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
@@ -98,7 +98,7 @@ static void traceCentres(const Job* job, const Tile* tile)
         }
     }
     vtFollowPaths(job->reference, &rules, paths, count);
-    const vtPath* path = paths;
+    const vtReferencePath* path = paths;
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++path) {
             const size_t pixel = pixelIndex(job, column, row);
@@ -124,7 +124,7 @@ static float mirrorDigits(uint32_t i)
 
 /// Sample number `index` of a pixel. Of n samples each has one of n columns and, for n a power of two, one
 /// of n rows to itself (Hammersley's points), at a random place of the cell.
-static vtPath makeSample(const Job* job, int column, int row, int index)
+static vtReferencePath makeSample(const Job* job, int column, int row, int index)
 {
     uint32_t random = vtHash((uint32_t)pixelIndex(job, column, row) ^ vtHash((uint32_t)index));
     float x = 0.5f, y = 0.5f;
@@ -139,7 +139,7 @@ static vtPath makeSample(const Job* job, int column, int row, int index)
 static void traceSamples(const Job* job, const Tile* tile, int index)
 {
     const vtPathRules rules = {job->def->frame->ior, job->def->frame->maxEvents, job->def->fresnel};
-    vtPath paths[VT_PATH_BATCH];
+    vtReferencePath paths[VT_PATH_BATCH];
     int count = 0;
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
@@ -147,7 +147,7 @@ static void traceSamples(const Job* job, const Tile* tile, int index)
         }
     }
     vtFollowPaths(job->reference, &rules, paths, count);
-    const vtPath* path = paths;
+    const vtReferencePath* path = paths;
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++path) {
             addRadiance(job, pixelIndex(job, column, row), path->direction);

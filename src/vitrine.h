@@ -247,6 +247,27 @@ vtFrame vtDefaultFrame(void);
 /// Checks every field against its documented range; the sentence names field, value and range.
 vtResult vtValidateFrame(const vtFrame* frame, vtError* error);
 
+/// One meeting of a path with a surface.
+typedef struct vtPathEvent {
+    vtVec3 position;
+    float incoming; ///< degrees between the ray and the interpolated normal, before
+    float outgoing; ///< and after
+    bool reflected; ///< total internal reflection; else a refraction
+} vtPathEvent;
+
+typedef struct vtPath {
+    int eventCount; ///< 0: the eye ray misses the glass
+    vtPathEvent events[VT_MAX_EVENTS];
+    vtVec3 direction; ///< unit, after the last event
+    bool exited;      ///< it has left the glass for good
+} vtPath;
+
+/// The exact path of the eye ray through a point of the picture, x from the left and y from the top in
+/// pixels (pixel centres at .5), traced on the CPU: what the techniques imitate. frame gives view, ior, size
+/// and maxEvents. Some milliseconds: it builds its search structure each time.
+vtResult vtTracePath(const vtMesh* mesh, const vtFrame* frame, float x, float y, vtPath* path,
+                     vtError* error);
+
 typedef void (*vtProc)(void);
 typedef vtProc vtGetProcAddressFcn(const char* name);
 

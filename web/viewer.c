@@ -223,6 +223,31 @@ EMSCRIPTEN_KEEPALIVE const uint8_t* vtViewer_Image(vtViewer* viewer, int width, 
     return drawn ? image : NULL;
 }
 
+/// The exact path through a point of the canvas (pixels, from its top left), as JSON: its events and its last
+/// direction; NULL on failure, see vtViewer_Error. Valid until the next call.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_Path(vtViewer* viewer, float x, float y)
+{
+    vtPath path;
+    if (vtTracePath(&viewer->mesh, &viewer->frame, x, y, &path, &viewer->error) != vt_ok) {
+        return NULL;
+    }
+    size_t used = 0, size = sizeof viewer->path;
+    char* text = viewer->path;
+    used += (size_t)snprintf(text, size, "{\"exited\":%s,\"direction\":[%.5g,%.5g,%.5g],\"events\":[",
+                             path.exited ? "true" : "false", (double)path.direction.x,
+                             (double)path.direction.y, (double)path.direction.z);
+    for (int i = 0; i < path.eventCount && used < size; ++i) {
+        const vtPathEvent* event = &path.events[i];
+        used += (size_t)snprintf(text + used, size - used,
+                                 "%s{\"position\":[%.5g,%.5g,%.5g],\"in\":%.2f,\"out\":%.2f,\"kind\":\"%s\"}",
+                                 i > 0 ? "," : "", (double)event->position.x, (double)event->position.y,
+                                 (double)event->position.z, (double)event->incoming, (double)event->outgoing,
+                                 event->reflected ? "reflection" : "refraction");
+    }
+    snprintf(text + used, size - used, "]}");
+    return text;
+}
+
 /// What is shown, as JSON.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Info(vtViewer* viewer)
 {

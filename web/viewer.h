@@ -12,6 +12,7 @@ typedef struct vtViewer {
     uint8_t* image; ///< the last one of vtViewer_Image
     vtError error;
     char info[512];
+    char path[128 + 128 * VT_MAX_EVENTS]; ///< the last one of vtViewer_Path
 } vtViewer;
 
 /// Compiles the shaders in the current context; NULL where memory is out. See vtViewer_Error.

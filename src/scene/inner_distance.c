@@ -1,190 +1,33 @@
-// Distances from vertices inwards, for technique `wyman`. This work is based on:
-//   Chris Wyman. An Approximate Image-Space Approach for Interactive Refraction. 2005 (section 3.1: d_N).
-//   Tomas Moller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
-// A plain bounding volume hierarchy, halved at the middle triangle along the longest axis: good enough for
-// one ray a vertex, once a mesh, and it runs in the browser. Natively Embree gives the same numbers faster.
-#include <float.h>
+// Distances from vertices inwards, for technique `wyman` (Wyman 2005, section 3.1: d_N). Natively Embree
+// gives the same numbers faster.
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "base/math.h"
-
-enum { leafSize = 4, stackSize = 64 };
-
-typedef struct Node {
-    vtVec3 low, high;
-    uint32_t first, count; // triangles of a leaf; count 0: children are the next node and `first`
-} Node;
-
-typedef struct Tree {
-    const vtMesh* mesh;
-    Node* nodes;
-    uint32_t nodeCount;
-    uint32_t* triangles;
-    vtVec3* centres;
-} Tree;
-
-static vtVec3 corner(const vtMesh* mesh, uint32_t triangle, int k)
-{
-    return vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[3 * (size_t)triangle + (size_t)k]);
-}
-
-static float axisOf(vtVec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
-static void grow(vtVec3* low, vtVec3* high, vtVec3 p)
-{
-    *low = (vtVec3){fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z)};
-    *high = (vtVec3){fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z)};
-}
-
-/// Hoare's selection: afterwards the `middle` lowest centres along the axis come first.
-static void partition(const Tree* tree, uint32_t* items, uint32_t count, uint32_t middle, int axis)
-{
-    uint32_t left = 0, right = count - 1;
-    while (left < right) {
-        float pivot = axisOf(tree->centres[items[(left + right) / 2]], axis);
-        uint32_t i = left, j = right;
-        for (;;) {
-            while (axisOf(tree->centres[items[i]], axis) < pivot) {
-                ++i;
-            }
-            while (axisOf(tree->centres[items[j]], axis) > pivot) {
-                --j;
-            }
-            if (i >= j) {
-                break;
-            }
-            uint32_t swapped = items[i];
-            items[i++] = items[j];
-            items[j--] = swapped;
-        }
-        if (middle <= j) {
-            right = j;
-        } else {
-            left = j + 1;
-        }
-    }
-}
-
-static uint32_t build(Tree* tree, uint32_t first, uint32_t count)
-{
-    uint32_t index = tree->nodeCount++;
-    Node node = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}, first, count};
-    vtVec3 low = node.low, high = node.high; // of the centres
-    for (uint32_t i = 0; i < count; ++i) {
-        uint32_t triangle = tree->triangles[first + i];
-        grow(&low, &high, tree->centres[triangle]);
-        for (int k = 0; k < 3; ++k) {
-            grow(&node.low, &node.high, corner(tree->mesh, triangle, k));
-        }
-    }
-    if (count > leafSize) {
-        vtVec3 extent = vtSub(high, low);
-        int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-        uint32_t half = count / 2;
-        partition(tree, tree->triangles + first, count, half, axis);
-        node.count = 0;
-        build(tree, first, half);
-        node.first = build(tree, first + half, count - half);
-    }
-    tree->nodes[index] = node;
-    return index;
-}
-
-static bool meetsBox(const Node* node, vtVec3 origin, vtVec3 inverse, float nearest)
-{
-    float x0 = (node->low.x - origin.x) * inverse.x, x1 = (node->high.x - origin.x) * inverse.x;
-    float y0 = (node->low.y - origin.y) * inverse.y, y1 = (node->high.y - origin.y) * inverse.y;
-    float z0 = (node->low.z - origin.z) * inverse.z, z1 = (node->high.z - origin.z) * inverse.z;
-    float enter = fmaxf(fmaxf(fminf(x0, x1), fminf(y0, y1)), fmaxf(fminf(z0, z1), 0.0f));
-    float leave = fminf(fminf(fmaxf(x0, x1), fmaxf(y0, y1)), fminf(fmaxf(z0, z1), nearest));
-    return enter <= leave * 1.000001f;
-}
-
-/// Distance to the triangle where the ray leaves through it, else FLT_MAX.
-static float meetsTriangle(const vtMesh* mesh, uint32_t triangle, vtVec3 origin, vtVec3 direction)
-{
-    vtVec3 a = corner(mesh, triangle, 0);
-    vtVec3 e1 = vtSub(corner(mesh, triangle, 1), a), e2 = vtSub(corner(mesh, triangle, 2), a);
-    if (vtDot(vtCross(e1, e2), direction) <= 0.0f) {
-        return FLT_MAX; // an entry: it cannot end the way through the glass
-    }
-    vtVec3 p = vtCross(direction, e2);
-    float determinant = vtDot(e1, p);
-    vtVec3 s = vtSub(origin, a), q = vtCross(s, e1);
-    float u = vtDot(s, p) / determinant, v = vtDot(direction, q) / determinant;
-    bool inside = u >= -1e-5f && v >= -1e-5f && u + v <= 1.00001f;
-    return inside ? vtDot(e2, q) / determinant : FLT_MAX;
-}
-
-static float trace(const Tree* tree, vtVec3 origin, vtVec3 direction, float start)
-{
-    vtVec3 inverse = {1.0f / direction.x, 1.0f / direction.y, 1.0f / direction.z};
-    uint32_t stack[stackSize], depth = 0;
-    float nearest = FLT_MAX;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        uint32_t index = stack[--depth];
-        const Node* node = &tree->nodes[index];
-        if (!meetsBox(node, origin, inverse, nearest)) {
-            continue;
-        }
-        if (node->count == 0) { // halving keeps the depth below 32
-            stack[depth++] = node->first;
-            stack[depth++] = index + 1;
-        }
-        for (uint32_t i = 0; i < node->count; ++i) {
-            float t = meetsTriangle(tree->mesh, tree->triangles[node->first + i], origin, direction);
-            nearest = t > start && t < nearest ? t : nearest;
-        }
-    }
-    return nearest < FLT_MAX ? nearest : 0.0f;
-}
-
-static void traceAll(Tree* tree, float* distances)
-{
-    const vtMesh* mesh = tree->mesh;
-    uint32_t triangleCount = mesh->indexCount / 3;
-    for (uint32_t i = 0; i < triangleCount; ++i) {
-        tree->triangles[i] = i;
-        tree->centres[i] =
-            vtScale(vtAdd(vtAdd(corner(mesh, i, 0), corner(mesh, i, 1)), corner(mesh, i, 2)), 1.0f / 3.0f);
-    }
-    build(tree, 0, triangleCount);
-    // The vertex's own triangles lie at distance zero.
-    float start = 1e-5f * vtLength(vtSub(mesh->boundsMax, mesh->boundsMin));
-    for (size_t i = 0; i < mesh->vertexCount; ++i) {
-        vtVec3 inward = vtScale(vtMakeVec3(mesh->normals + 3 * i), -1.0f);
-        distances[i] = trace(tree, vtMakeVec3(mesh->positions + 3 * i), inward, start);
-    }
-}
+#include "scene/bvh.h"
 
 vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error)
 {
     if (mesh->innerDistances != NULL) {
         return vtSucceed(error);
     }
-    size_t triangleCount = mesh->indexCount / 3;
-    Tree tree = {.mesh = mesh};
-    tree.nodes = malloc(2 * triangleCount * sizeof *tree.nodes);
-    tree.triangles = malloc(triangleCount * sizeof *tree.triangles);
-    tree.centres = malloc(triangleCount * sizeof *tree.centres);
+    vtBvh* bvh = vtCreateBvh(mesh);
     float* distances = malloc(mesh->vertexCount * sizeof *distances);
-    bool enough = tree.nodes != NULL && tree.triangles != NULL && tree.centres != NULL && distances != NULL;
-    if (enough) {
-        traceAll(&tree, distances);
-        mesh->innerDistances = distances;
-    }
-    free(tree.nodes);
-    free(tree.triangles);
-    free(tree.centres);
-    if (!enough) {
+    if (bvh == NULL || distances == NULL) {
+        vtDestroyBvh(bvh);
         free(distances);
-        return vtFail(error, vt_errorMemory, "inner distances: out of memory for %zu triangles",
-                      triangleCount);
+        return vtFail(error, vt_errorMemory, "inner distances: out of memory for %u triangles",
+                      mesh->indexCount / 3);
     }
+    // The vertex's own triangles lie at distance zero.
+    float start = 1e-5f * vtLength(vtSub(mesh->boundsMax, mesh->boundsMin));
+    for (size_t i = 0; i < mesh->vertexCount; ++i) {
+        vtVec3 inward = vtScale(vtMakeVec3(mesh->normals + 3 * i), -1.0f);
+        vtBvhHit hit;
+        bool found = vtBvh_Trace(bvh, vtMakeVec3(mesh->positions + 3 * i), inward, start, true, &hit);
+        distances[i] = found ? hit.distance : 0.0f;
+    }
+    vtDestroyBvh(bvh);
+    mesh->innerDistances = distances;
     return vtSucceed(error);
 }
