@@ -16,8 +16,8 @@ esac
 bash scripts/dependencies.sh
 
 echo "== building vitrine"
-cmake --preset release -DBUILD_TESTING=OFF >/dev/null
-cmake --build --preset release
+cmake --preset release >/dev/null
+cmake --build --preset release --target vitrine
 
 echo "== rendering the gallery into out/"
 bash scripts/gallery.sh out
