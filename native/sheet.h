@@ -12,8 +12,7 @@ typedef struct vtSheet {
 vtResult vtCreateSheet(int width, int height, uint8_t grey, vtSheet* sheet, vtError* error);
 void vtDestroySheet(vtSheet* sheet);
 
-/// Copies a picture (RGBA, top row first) to (x, y), scaled down by a whole factor where it is larger than
-/// `size` (box filter). It must fit.
+/// Copies a picture (RGBA, top row first) to (x, y), scaled down by a whole factor (box filter). It must fit.
 void vtSheet_Paste(vtSheet* sheet, int x, int y, const uint8_t* rgba, int width, int height, int factor);
 
 /// Writes one line of ASCII, black, with its top left at (x, y); what does not fit is cut off. Letters are

@@ -116,7 +116,7 @@ static vtResult addDrawing(Page* page, const vtFrame* frame, const char* caption
     return result == vt_ok ? addPicture(page, caption, error) : result;
 }
 
-/// The traced picture of the frame; with `truth` it is kept there too.
+/// The traced picture of the frame.
 static vtResult addTracing(Page* page, const vtFrame* frame, const char* caption, vtError* error)
 {
     vtReferenceImage image;
