@@ -37,5 +37,5 @@ if ! command -v python3 >/dev/null; then
   exit 0
 fi
 port="${PORT:-8080}"
-echo "== Vitrine is at http://localhost:$port/ (Ctrl-C ends)"
+echo "== Vitrine is at http://localhost:$port/demo/ (Ctrl-C ends); the plain GLFW page is at http://localhost:$port/"
 exec python3 -m http.server "$port" --bind 127.0.0.1 --directory build/web

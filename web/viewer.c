@@ -135,10 +135,10 @@ static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
     return result;
 }
 
-/// Technique by its id and the settings of the glass, ranges as in vtFrame.
+/// Technique by its id and the settings of the glass, ranges as in vtFrame; `output` is a vtOutput.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, float ior,
                                                    int layers, int steps, int maxEvents, int output,
-                                                   float exposure, bool transparent)
+                                                   int layer, float exposure, bool transparent)
 {
     vtFrame frame = viewer->frame;
     frame.technique = vtFindTechnique(technique);
@@ -151,6 +151,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char*
     frame.steps = steps;
     frame.maxEvents = maxEvents;
     frame.output = (vtOutput)output;
+    frame.layer = layer;
     frame.exposure = exposure;
     frame.transparentBackground = transparent;
     return sentence(viewer, showFrame(viewer, &frame));

@@ -1,0 +1,185 @@
+// What the element is, told three ways from one source (web/element/attributes.js and the lists below): types
+// and manifest for the npm package, and docs/attributes.md.
+//   node scripts/describe-element.mjs           writes docs/attributes.md
+//   node scripts/describe-element.mjs --check   fails where it is out of date
+import { readFileSync, writeFileSync } from 'node:fs';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), '..');
+
+const events = [
+  { name: 'load', detail: '{ url: string }', description: 'The model of the present src is in the picture.' },
+  { name: 'progress', detail: '{ totalProgress: number }', description: 'Share of the bytes that have arrived, 0 to 1.' },
+  {
+    name: 'error',
+    detail: "{ type: 'loadfailure' | 'webglcontextlost' | 'unsupported' | 'invalid'; sourceError: Error }",
+    description: 'Something failed; the last good picture stays.',
+  },
+  { name: 'frame', detail: '{ milliseconds: number }', description: 'A frame is on the screen, and how long it took.' },
+  { name: 'camera-change', detail: "{ source: 'user-interaction' | 'none' }", description: 'The view has changed.' },
+  {
+    name: 'render-scale',
+    detail:
+      '{ reportedDpr: number; renderedDpr: number; minimumDpr: number; pixelWidth: number; pixelHeight: number; layers: number; steps: number; reason: string }',
+    description: 'The quality in force has changed.',
+  },
+];
+
+const methods = [
+  { signature: 'toBlob(options?: { mimeType?: string; qualityArgument?: number }): Promise<Blob>', description: 'The picture at full quality.' },
+  { signature: 'toDataURL(type?: string, qualityArgument?: number): string', description: 'The same as a data URL.' },
+  { signature: 'dismissPoster(): void', description: 'Shows the model where reveal is manual.' },
+  {
+    signature: 'getCameraOrbit(): { theta: number; phi: number; radius: number }',
+    description: 'The view as camera-orbit has it: radians, and the model’s unit.',
+  },
+  { signature: 'getCameraTarget(): { x: number; y: number; z: number }', description: 'The point looked at, world.' },
+  { signature: 'project(points: number[][]): number[][]', description: 'World points in client coordinates, as they are seen now.' },
+  {
+    signature:
+      "pathAt(clientX: number, clientY: number): { events: { kind: 'refraction' | 'reflection'; in: number; out: number }[]; points: number[][]; screen: number[][]; exited: boolean } | null",
+    description: 'The exact path of light through a point of the page; null where no glass is. Angles to the normal in degrees.',
+  },
+  { signature: 'resetView(): void', description: 'Back to the view that the attributes ask for.' },
+];
+
+const slots = [
+  { name: 'poster', description: 'Stands until the first frame.' },
+  { name: 'progress-bar', description: 'In place of the built-in progress bar.' },
+];
+const parts = ['canvas', 'poster', 'progress-bar', 'message'];
+const cssProperties = [
+  { name: '--progress-bar-color', description: 'Colour of the progress bar.' },
+  { name: '--poster-color', description: 'Behind the poster.' },
+];
+
+function typeOf(row) {
+  if (row.type === 'enum') return row.values.map((value) => `'${value}'`).join(' | ');
+  return row.type + (row.default === null ? ' | null' : '');
+}
+
+function defaultOf(row) {
+  if (row.default === null) return row.defaultText;
+  return row.type === 'boolean' ? 'absent' : row.default === '' ? '' : `\`${row.default}\``;
+}
+
+function rangeOf(row) {
+  if (row.type === 'number') return `${row.min} to ${row.max}`;
+  return row.type === 'enum' ? row.values.map((value) => `\`${value}\``).join(' ') : '';
+}
+
+function makeTypes(attributes) {
+  const listeners = events.map(({ name, detail }) => `  '${name}': CustomEvent<${detail}>;`);
+  return `// Made by scripts/describe-element.mjs.
+export interface VitrineViewerEventMap {
+${listeners.join('\n')}
+}
+
+/** A mesh in glass. */
+export declare class VitrineViewer extends HTMLElement {
+  /** Where vitrine-core.wasm is served from, if not beside vitrine-core.js. Set before the first element. */
+  static locateFile: ((name: string) => string) | null;
+  /** The WebAssembly itself, where nothing is to be fetched. Set before the first element. */
+  static wasmBinary: ArrayBuffer | Uint8Array | null;
+${attributes.map((row) => `  /** ${row.description} Default: ${defaultOf(row) || 'empty'}. */\n  ${row.property}: ${typeOf(row)};`).join('\n')}
+  /** True while a model is shown. */
+  readonly loaded: boolean;
+${methods.map(({ signature, description }) => `  /** ${description} */\n  ${signature};`).join('\n')}
+  addEventListener<K extends keyof VitrineViewerEventMap>(type: K, listener: (event: VitrineViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    'vitrine-viewer': VitrineViewer;
+  }
+}
+`;
+}
+
+function makeManifest(attributes) {
+  const path = 'element/vitrine-viewer.js';
+  return {
+    schemaVersion: '1.0.0',
+    modules: [
+      {
+        kind: 'javascript-module',
+        path,
+        declarations: [
+          {
+            kind: 'class',
+            name: 'VitrineViewer',
+            customElement: true,
+            tagName: 'vitrine-viewer',
+            description: 'A mesh in glass.',
+            attributes: attributes.map((row) => ({
+              name: row.attribute,
+              fieldName: row.property,
+              type: { text: typeOf(row) },
+              default: row.default === null ? row.defaultText : String(row.default),
+              description: row.description,
+            })),
+            members: methods.map(({ signature, description }) => ({ kind: 'method', name: signature.split('(')[0], description })),
+            events: events.map(({ name, description, detail }) => ({ name, description, type: { text: `CustomEvent<${detail}>` } })),
+            slots,
+            cssParts: parts.map((name) => ({ name })),
+            cssProperties,
+          },
+        ],
+        exports: [{ kind: 'custom-element-definition', name: 'vitrine-viewer', declaration: { name: 'VitrineViewer', module: path } }],
+      },
+    ],
+  };
+}
+
+function makePage(attributes) {
+  const row = (cells) => `| ${cells.map((cell) => String(cell).replaceAll('|', '\\|')).join(' | ')} |`;
+  return `# \`<vitrine-viewer>\`
+
+Made by \`scripts/describe-element.mjs\`; do not edit. [web.md](web.md) shows the element in use.
+
+## Attributes
+
+Each is a property too, in camelCase.
+
+${row(['attribute', 'default', 'range', 'meaning'])}
+|---|---|---|---|
+${attributes.map((each) => row([`\`${each.attribute}\``, defaultOf(each), rangeOf(each), each.description])).join('\n')}
+
+## Events
+
+${row(['event', 'detail', 'when'])}
+|---|---|---|
+${events.map(({ name, detail, description }) => row([`\`${name}\``, `\`${detail}\``, description])).join('\n')}
+
+## Methods
+
+${methods.map(({ signature, description }) => `- \`${signature}\`: ${description}`).join('\n')}
+
+## Slots, parts, CSS variables
+
+${slots.map(({ name, description }) => `- slot \`${name}\`: ${description}`).join('\n')}
+- parts: ${parts.map((name) => `\`${name}\``).join(', ')}
+${cssProperties.map(({ name, description }) => `- \`${name}\`: ${description}`).join('\n')}
+`;
+}
+
+/** Types, manifest and page of the element whose table lies at `path`. */
+export async function describeElement(path) {
+  const { attributes } = await import(pathToFileURL(path));
+  return { types: makeTypes(attributes), manifest: makeManifest(attributes), page: makePage(attributes) };
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const target = join(root, 'docs/attributes.md');
+  const { page } = await describeElement(join(root, 'web/element/attributes.js'));
+  if (process.argv[2] === '--check') {
+    if (readFileSync(target, 'utf8') !== page) {
+      console.error('docs/attributes.md is out of date; run node scripts/describe-element.mjs');
+      process.exit(1);
+    }
+  } else {
+    writeFileSync(target, page);
+  }
+}

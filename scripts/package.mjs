@@ -1,0 +1,85 @@
+// Makes the npm package from build/web: build/package (its contents) and build/vitrine-viewer-VERSION.tgz.
+//   node scripts/package.mjs            needs build/web (scripts/build-web.sh) and the packages of tests/
+import { build } from '../tests/node_modules/esbuild/lib/main.js';
+import { execFileSync } from 'node:child_process';
+import { cpSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+import { describeElement } from './describe-element.mjs';
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), '..');
+const web = join(root, 'build/web');
+const folder = join(root, 'build/package');
+const version = readFileSync(join(root, 'src/vitrine.h'), 'utf8').match(/VT_VERSION "([^"]+)"/)[1];
+
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+for (const name of ['vitrine-core.js', 'vitrine-core.wasm']) {
+  cpSync(join(web, name), join(folder, name));
+}
+// The element's modules one by one, without comments: a bundler of the page's own may join them.
+const modules = readdirSync(join(web, 'element')).map((name) => join(web, 'element', name));
+await build({ entryPoints: modules, outdir: join(folder, 'element'), minify: true, target: 'es2022', logLevel: 'warning' });
+
+const { types, manifest } = await describeElement(join(web, 'element/attributes.js'));
+writeFileSync(join(folder, 'index.d.ts'), types);
+writeFileSync(join(folder, 'custom-elements.json'), `${JSON.stringify(manifest, null, 2)}\n`);
+cpSync(join(root, 'docs/web.md'), join(folder, 'README.md'));
+
+// One file with everything in it, for a <script type="module"> from anywhere.
+await build({
+  stdin: {
+    contents: `import wasm from './vitrine-core.wasm';
+      import { VitrineViewer } from './element/vitrine-viewer.js';
+      VitrineViewer.wasmBinary = wasm;
+      export { VitrineViewer };`,
+    resolveDir: folder,
+  },
+  bundle: true,
+  format: 'esm',
+  minify: true,
+  target: 'es2022',
+  loader: { '.wasm': 'binary' },
+  outfile: join(folder, 'vitrine-viewer.bundle.js'),
+  logLevel: 'warning',
+});
+
+writeFileSync(
+  join(folder, 'package.json'),
+  `${JSON.stringify(
+    {
+      name: 'vitrine-viewer',
+      version,
+      description: 'A custom element that draws a mesh in real-time glass, refraction by refraction',
+      type: 'module',
+      main: './element/vitrine-viewer.js',
+      types: './index.d.ts',
+      exports: {
+        '.': { types: './index.d.ts', default: './element/vitrine-viewer.js' },
+        './bundle': { types: './index.d.ts', default: './vitrine-viewer.bundle.js' },
+        './vitrine-core.wasm': './vitrine-core.wasm',
+        './custom-elements.json': './custom-elements.json',
+      },
+      sideEffects: ['./element/vitrine-viewer.js', './vitrine-viewer.bundle.js'],
+      files: ['element', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-viewer.bundle.js', 'index.d.ts', 'custom-elements.json'],
+      customElements: 'custom-elements.json',
+      keywords: ['glass', 'refraction', 'webgl', 'wasm', 'gltf', 'custom-element', 'web-components'],
+    },
+    null,
+    2,
+  )}\n`,
+);
+
+const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', join(root, 'build')], { cwd: folder });
+console.log(`build/${packed.toString().trim()}`);
+
+// What the element loads, as a server would send it.
+const loaded = ['vitrine-core.wasm', 'vitrine-core.js', ...readdirSync(join(folder, 'element')).map((name) => `element/${name}`)];
+let sum = 0;
+for (const name of loaded) {
+  const bytes = gzipSync(readFileSync(join(folder, name)), { level: 9 }).length;
+  sum += bytes;
+  if (bytes > 3000) console.log(`  ${name}: ${statSync(join(folder, name)).size} bytes, ${bytes} gzip`);
+}
+console.log(`  all that the element loads: ${(sum / 1000).toFixed(1)} KB gzip`);

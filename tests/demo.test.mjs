@@ -1,0 +1,412 @@
+// The demo page in headless Chromium: every control, the address, the wipe, files, layouts, accessibility.
+// Needs build/web (`emcmake cmake --preset web && cmake --build --preset web`), Chromium and `npm ci` in this
+// folder; without one of them the tests skip themselves and say so.
+import assert from 'node:assert/strict';
+import { existsSync, mkdirSync, readFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { createRequire } from 'node:module';
+import { dirname, extname, join, resolve } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
+const chromiumPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+const screenshots = join(here, '../build/screenshots');
+
+const modules = await Promise.all(['playwright-core', 'pixelmatch', 'pngjs', 'axe-core'].map((name) => import(name))).catch(() => null);
+const missing = [
+  [modules, "node modules (run 'npm ci' in tests/)"],
+  [existsSync(join(site, 'demo/index.html')), join(site, 'demo')],
+  [existsSync(chromiumPath), chromiumPath],
+].filter(([there]) => !there).map(([, name]) => name);
+const skip = missing.length > 0 && `missing: ${missing.join(', ')}`;
+const [{ chromium }, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
+
+const llvmpipe = ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'];
+const quiet = ['--no-sandbox', '--disable-sync', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update'];
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.png': 'image/png' };
+const small = { width: 780, height: 420 };
+const quick = 'layers=2&steps=12&events=4'; // llvmpipe computes every pixel on the CPU
+const visible = { x: 0, y: 130, width: 424, height: 150 }; // neither panel nor gallery nor captions
+
+function startServer() {
+  const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url, 'http://localhost');
+    const file = join(site, pathname.endsWith('/') ? `${pathname}index.html` : pathname);
+    if (!file.startsWith(site) || !existsSync(file)) {
+      response.writeHead(404).end();
+      return;
+    }
+    response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' });
+    response.end(readFileSync(file));
+  });
+  return new Promise((ready) => server.listen(0, '127.0.0.1', () => ready(server)));
+}
+
+/** In the page, before its scripts: counts draw calls, layout shifts and violations of the policy. */
+function watch() {
+  window.watched = { draws: 0, lastDraw: 0, shift: 0, violations: [] };
+  for (const name of ['drawArrays', 'drawElements']) {
+    const real = WebGL2RenderingContext.prototype[name];
+    WebGL2RenderingContext.prototype[name] = function (...values) {
+      ++window.watched.draws;
+      window.watched.lastDraw = performance.now();
+      return real.apply(this, values);
+    };
+  }
+  new PerformanceObserver((list) => {
+    for (const entry of list.getEntries()) window.watched.shift += entry.hadRecentInput ? 0 : entry.value;
+  }).observe({ type: 'layout-shift', buffered: true });
+  document.addEventListener('securitypolicyviolation', (event) => window.watched.violations.push(`${event.violatedDirective} ${event.blockedURI}`));
+}
+
+/** Waits until every viewer shows its model and has rested for longer than its motion pause. */
+const settle = (page) => page.waitForFunction(() => {
+  const viewers = [...document.querySelectorAll('vitrine-viewer')];
+  return viewers.every((viewer) => viewer.loaded) && window.watched.draws > 0 && performance.now() - window.watched.lastDraw > 450;
+}, null, { timeout: 20000, polling: 60 });
+
+async function seen(page, clip = visible) {
+  await settle(page);
+  return PNG.sync.read(await page.screenshot({ clip }));
+}
+
+/** Percentage of pixels that differ visibly. */
+function difference(a, b) {
+  assert.deepEqual([a.width, a.height], [b.width, b.height]);
+  return (100 * pixelmatch(a.data, b.data, null, a.width, a.height, { threshold: 0.1 })) / (a.width * a.height);
+}
+
+function columns(image, from, to) {
+  const part = new PNG({ width: to - from, height: image.height });
+  PNG.bitblt(image, part, from, 0, to - from, image.height, 0, 0);
+  return part;
+}
+
+function glbTetrahedron() {
+  const body = Buffer.concat([
+    Buffer.from(new Float32Array([1, 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1]).buffer),
+    Buffer.from(new Uint16Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]).buffer),
+  ]);
+  const json = Buffer.from(JSON.stringify({
+    asset: { version: '2.0' }, buffers: [{ byteLength: body.length }],
+    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 24 }],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-1, -1, -1], max: [1, 1, 1] },
+      { bufferView: 1, componentType: 5123, count: 12, type: 'SCALAR' },
+    ],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0,
+  }));
+  const padded = Buffer.concat([json, Buffer.alloc((4 - (json.length % 4)) % 4, ' ')]);
+  const words = (...numbers) => Buffer.from(new Uint32Array(numbers).buffer);
+  return Buffer.concat([
+    words(0x46546c67, 2, 28 + padded.length + body.length),
+    words(padded.length, 0x4e4f534a), padded, words(body.length, 0x004e4942), body,
+  ]);
+}
+
+describe('the demo page', { skip }, () => {
+  let server, browser;
+
+  before(async () => {
+    mkdirSync(screenshots, { recursive: true });
+    server = await startServer();
+    browser = await chromium.launch({ executablePath: chromiumPath, args: [...quiet, ...llvmpipe] });
+  });
+  after(async () => {
+    await browser?.close();
+    server?.close();
+  });
+
+  /** A fresh page; when the test is over there must have been no error, violation or layout shift. */
+  async function open(t, query = quick, options = {}) {
+    const context = await browser.newContext({ viewport: small, colorScheme: 'dark', ...options });
+    const page = await context.newPage();
+    const complaints = [];
+    page.on('pageerror', (error) => complaints.push(String(error)));
+    page.on('console', (message) => {
+      if (message.type() === 'error' || /INVALID_|feedback|incomplete/i.test(message.text())) complaints.push(message.text());
+    });
+    t.after(async () => {
+      const { shift, violations } = await page.evaluate(() => window.watched);
+      await context.close();
+      assert.deepEqual([...complaints, ...violations], []);
+      assert.ok(shift < 0.05, `layout shifts by ${shift}`);
+    });
+    await page.addInitScript(watch);
+    await page.goto(`http://127.0.0.1:${server.address().port}/demo/?${query}`);
+    await settle(page);
+    return page;
+  }
+
+  const query = async (page) => {
+    await page.waitForTimeout(350); // the address follows at most three times a second
+    return Object.fromEntries(new URL(page.url()).searchParams);
+  };
+  const slide = (page, id, value) => page.locator(`#${id}`).fill(String(value));
+  const drop = (page, name, bytes) => page.evaluate(([file, text]) => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], file));
+    for (const type of ['dragenter', 'dragover', 'drop']) {
+      document.getElementById('stage').dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true }));
+    }
+  }, [name, bytes.toString('base64')]);
+
+  test('shows the knot, and draws nothing while nothing changes', async (t) => {
+    const page = await open(t, '', { viewport: { width: 1280, height: 800 } });
+    await page.screenshot({ path: join(screenshots, 'demo-wide-dark.png') });
+    const { draws } = await page.evaluate(() => window.watched);
+    await page.waitForTimeout(700);
+    assert.equal(await page.evaluate(() => window.watched.draws), draws);
+    assert.match(await page.textContent('#size'), /\d+ × \d+ \(\d+ %\) · 4 layers · 50 steps/);
+    await page.emulateMedia({ colorScheme: 'light' });
+    await page.screenshot({ path: join(screenshots, 'demo-wide-light.png') });
+  });
+
+  test('every control changes picture, number and address', async (t) => {
+    const page = await open(t, `${quick}&quality=high`);
+    let old = await seen(page);
+    const changes = async (name, least = 0.1) => {
+      const now = await seen(page);
+      const differing = difference(old, now);
+      assert.ok(differing > least, `${name}: ${differing} % differ`);
+      old = now;
+    };
+    for (const [id, value, shown] of [['layers', 1, '1'], ['layers', 4, '4'], ['steps', 3, '3'], ['events', 2, '2'], ['ior', 1.2, '1.200'], ['exposure', 1, '+1.0 EV'], ['fov', 30, '30°']]) {
+      await slide(page, id, value);
+      assert.equal(await page.textContent(`#${id}-value`), shown);
+      await changes(id, 0.02);
+    }
+    await page.getByRole('button', { name: 'Goblet' }).click();
+    await changes('model', 1);
+    assert.equal(await page.getByRole('button', { name: 'Goblet' }).getAttribute('aria-pressed'), 'true');
+    await page.locator('#environment input[value=checker]').check();
+    await changes('environment', 3);
+    await page.locator('#backdrop').uncheck();
+    await changes('backdrop', 3);
+    await page.selectOption('#technique', 'single');
+    await changes('technique');
+    assert.ok(await page.isDisabled('#layers'), 'a slider that the technique does not heed');
+    await page.locator('#quality input[value=low]').check();
+    await changes('quality');
+    await page.locator('#theme input[value=light]').check();
+    await changes('theme', 10);
+    assert.deepEqual(await query(page), {
+      model: 'goblet', environment: 'checker', backdrop: '0', technique: 'single', ior: '1.2', steps: '3', events: '2',
+      quality: 'low', exposure: '1', fov: '30', theme: 'light',
+    });
+
+    for (const [name, ior] of [['Water', '1.333'], ['Crown glass', '1.523'], ['Flint', '1.62'], ['Sapphire', '1.77'], ['Diamond', '2.417']]) {
+      await page.locator('#presets').getByRole('button', { name }).click();
+      assert.equal(await page.inputValue('#ior'), ior);
+      assert.equal(await page.getAttribute('vitrine-viewer', 'ior'), ior);
+      assert.equal(await page.locator('#presets [aria-pressed=true]').textContent(), name);
+    }
+  });
+
+  test('layers and path colours', async (t) => {
+    const page = await open(t);
+    if (!(await page.evaluate(() => 'output' in document.querySelector('vitrine-viewer')))) {
+      assert.ok(await page.locator('#output input[value=analysis]').isDisabled());
+      t.diagnostic('the element has no output yet');
+      return;
+    }
+    const pictures = [await seen(page)];
+    for (const output of ['analysis', 'layer-depth', 'layer-normal']) {
+      await page.locator(`#output input[value=${output}]`).check();
+      pictures.push(await seen(page));
+    }
+    await page.screenshot({ path: join(screenshots, 'demo-normals.png') });
+    await slide(page, 'layer', 1);
+    pictures.push(await seen(page));
+    for (let i = 1; i < pictures.length; ++i) assert.ok(difference(pictures[i - 1], pictures[i]) > 3, `${i}`);
+  });
+
+  test('a link shows the same', async (t) => {
+    const page = await open(t, `${quick}&model=torus&technique=oliveira&ior=1.7`);
+    const first = await seen(page);
+    await page.mouse.move(150, 200);
+    await page.mouse.down();
+    await page.mouse.move(230, 240, { steps: 4 });
+    await page.mouse.up();
+    const turned = await seen(page);
+    assert.ok(difference(first, turned) > 2, 'the drag turns');
+    const link = await query(page);
+    assert.match(link.orbit, /^[-\d.]+deg [-\d.]+deg [\d.]+m$/);
+    const again = await open(t, String(new URLSearchParams(link)));
+    const differing = difference(turned, await seen(again));
+    assert.ok(differing < 0.5, `${differing} % differ`);
+    assert.equal(await again.inputValue('#technique'), 'oliveira');
+    assert.deepEqual(await query(again), link);
+    await again.click('#reset');
+    assert.ok(difference(first, await seen(again)) < 0.5, 'the view is reset');
+  });
+
+  test('a bad address is answered with sentences', async (t) => {
+    const page = await open(t, `${quick}&model=teapot&ior=99&orbit=up`);
+    const text = await page.textContent('[role=alert]');
+    for (const word of [/model is 'teapot'/, /ior is '99'; it must be a number from 1 to 4/, /orbit is 'up'/]) assert.match(text, word);
+    assert.equal(await page.textContent('#ior-value'), '1.500');
+    await page.getByRole('button', { name: 'Dismiss' }).click();
+    assert.ok(await page.isHidden('#error'));
+  });
+
+  test('wipes between two techniques', async (t) => {
+    const single = await seen(await open(t, `${quick}&technique=single`));
+    const layered = await seen(await open(t, `${quick}&technique=layered`));
+    const page = await open(t, `${quick}&technique=layered&compare=single&wipe=50`);
+    const both = await seen(page);
+    const middle = 212; // of the visible width
+    const sides = [[0, middle - 24, layered, single], [middle + 24, 424, single, layered]];
+    for (const [from, to, same, other] of sides) {
+      const part = columns(both, from, to);
+      assert.ok(difference(part, columns(same, from, to)) < 0.5, `from ${from}: as the single view`);
+      assert.ok(difference(part, columns(other, from, to)) > 3, `from ${from}: unlike the other`);
+    }
+
+    const divider = page.getByRole('slider', { name: 'Divider' });
+    await divider.focus();
+    for (const [key, value] of [['ArrowRight', '52'], ['PageUp', '62'], ['End', '100'], ['Home', '0'], ['PageUp', '10']]) {
+      await page.keyboard.press(key);
+      assert.equal(await divider.getAttribute('aria-valuenow'), value, key);
+    }
+    const { x, y, width, height } = await divider.boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(318, 200, { steps: 3 });
+    await page.mouse.up();
+    assert.equal(await divider.getAttribute('aria-valuenow'), '75');
+
+    const follows = async (what) => {
+      await settle(page);
+      const orbits = await page.evaluate(() => [...document.querySelectorAll('vitrine-viewer')].map((viewer) => {
+        const { theta, phi, radius } = viewer.getCameraOrbit();
+        return [theta, phi, radius].map((value) => value.toFixed(3));
+      }));
+      assert.deepEqual(orbits[1], orbits[0], what);
+    };
+    await slide(page, 'fov', 60);
+    await follows('another field of view');
+    await page.setViewportSize({ width: 840, height: 420 });
+    await follows('another window');
+    await page.mouse.move(100, 160);
+    await page.mouse.down();
+    await page.mouse.move(160, 160, { steps: 3 });
+    await page.mouse.up();
+    await follows('a drag');
+    await page.screenshot({ path: join(screenshots, 'demo-wipe.png') });
+    await page.selectOption('#compare', 'none');
+    assert.equal(await page.locator('vitrine-viewer').count(), 1, 'the second context is given back');
+  });
+
+  test('wipes against stored pictures', async (t) => {
+    const page = await open(t, `layers=4&steps=40&quality=high&compare=none`);
+    await page.selectOption('#compare', 'reference');
+    await page.waitForSelector('#right .picture');
+    const traced = await slideTo(page, 0), ours = await slideTo(page, 100);
+    const differing = difference(traced, ours);
+    t.diagnostic(`the reference differs by ${differing.toFixed(1)} %`);
+    assert.ok(differing < 12, `${differing} % differ`); // measured 4.4: noise, and 4 samples a pixel
+    assert.equal(await page.textContent('#right-name'), 'Ray-traced reference');
+    await page.getByRole('button', { name: 'Keep this picture' }).click();
+    await page.waitForFunction(() => document.querySelector('#compare').value.startsWith('blob:'));
+    assert.ok(difference(await slideTo(page, 0), ours) < 0.5, 'the kept picture is what was shown');
+    async function slideTo(where, wipe) {
+      await where.focus('#divider');
+      await where.keyboard.press(wipe === 0 ? 'Home' : 'End');
+      return seen(where, { x: 30, y: 130, width: 360, height: 40 });
+    }
+  });
+
+  test('files by drop and by button', async (t) => {
+    const page = await open(t);
+    const first = await seen(page);
+    await drop(page, 'broken.glb', Buffer.from('not a model'));
+    await page.waitForSelector('#error:not([hidden])');
+    assert.match(await page.textContent('[role=alert]'), /broken\.glb/);
+    await page.screenshot({ path: join(screenshots, 'demo-error.png') });
+    await page.getByRole('button', { name: 'Dismiss' }).click();
+    assert.ok(difference(first, await seen(page)) < 0.5, 'the picture stays');
+    assert.equal(await page.getByRole('button', { name: 'Knot' }).getAttribute('aria-pressed'), 'true');
+
+    await drop(page, 'tetrahedron.glb', glbTetrahedron());
+    await page.waitForSelector('[data-url^="blob:"][aria-pressed=true]');
+    assert.ok(await page.isHidden('#error'));
+    assert.ok(difference(first, await seen(page)) > 3);
+    assert.equal((await query(page)).model, undefined, 'a file has no address');
+
+    const old = await seen(page);
+    await drop(page, 'broken.hdr', Buffer.from('nothing'));
+    await page.waitForSelector('#error:not([hidden])');
+    assert.match(await page.textContent('[role=alert]'), /broken\.hdr/);
+    assert.ok(await page.locator('#environment input[value=sky]').isChecked());
+    await page.getByRole('button', { name: 'Dismiss' }).click();
+    const red = new PNG({ width: 4, height: 2 });
+    red.data.fill(Buffer.from([200, 10, 10, 255]));
+    await page.setInputFiles('#image-file', { name: 'red.png', mimeType: 'image/png', buffer: PNG.sync.write(red) });
+    await page.waitForSelector('#environment .file input:checked', { state: 'attached' });
+    await page.waitForTimeout(200);
+    assert.ok(difference(old, await seen(page)) > 30);
+
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+    assert.equal(download.suggestedFilename(), 'vitrine-tetrahedron.png');
+    assert.ok(PNG.sync.read(readFileSync(await download.path())).width > 424);
+  });
+
+  test('a click traces its path', async (t) => {
+    const page = await open(t, `${quick}&model=sphere`);
+    const isStub = await page.evaluate(() => {
+      const viewer = document.querySelector('vitrine-viewer');
+      if (viewer.pathAt) return false;
+      viewer.pathAt = (x, y) => ({
+        points: [[0, 0, 1], [0, 0.1, -1], [0, 0.2, -2]],
+        events: [{ kind: 'refraction', in: 30, out: 19.47 }, { kind: 'refraction', in: 19.47, out: 30 }],
+        screen: [[x, y], [x + 60, y + 30], [x + 90, y + 80]],
+      });
+      return true;
+    });
+    if (isStub) t.diagnostic('the element has no pathAt yet: a stub');
+    await page.mouse.click(190, 160);
+    const events = page.locator('#path-list li');
+    assert.equal(await events.count(), 2, 'in and out of a sphere');
+    for (const text of await events.allTextContents()) assert.match(text, /^Refraction[\d.]+° → [\d.]+°$/);
+    const dots = await page.locator('#path circle').evaluateAll((nodes) => nodes.map((node) => {
+      const { x, y, width, height } = node.getBoundingClientRect();
+      return [x + width / 2, y + height / 2];
+    }));
+    assert.equal(dots.length, 2);
+    assert.ok(Math.hypot(dots[0][0] - 190, dots[0][1] - 160) < 2, `the first event is where the click was: ${dots[0]}`);
+    await page.locator('#path-list').scrollIntoViewIfNeeded();
+    await page.screenshot({ path: join(screenshots, 'demo-path.png') });
+    await page.getByRole('button', { name: 'Torus' }).click();
+    assert.equal(await events.count(), 0, 'another model, no path');
+  });
+
+  test('fits a telephone', async (t) => {
+    const page = await open(t, quick, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+    await page.screenshot({ path: join(screenshots, 'demo-narrow.png') });
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'no horizontal scrolling');
+    for (const id of ['ior', 'technique', 'compare', 'layers', 'environment', 'reset', 'save', 'link']) {
+      await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+      const { x, width } = await page.locator(`#${id}`).boundingBox();
+      assert.ok(x >= 0 && x + width <= 390 && width > 0, id);
+    }
+    await page.click('#fold');
+    await settle(page);
+    await page.screenshot({ path: join(screenshots, 'demo-narrow-folded.png') });
+    assert.equal(await page.getAttribute('#fold', 'aria-expanded'), 'false');
+    const stage = await page.locator('#stage').boundingBox();
+    assert.ok(stage.height > 560, `the glass has ${stage.height} pixels`);
+  });
+
+  test('has no serious fault of accessibility', async (t) => {
+    const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+    for (const [colorScheme, viewport] of [['dark', small], ['light', small], ['light', { width: 390, height: 844 }]]) {
+      const page = await open(t, `${quick}&compare=single&environment=studio`, { colorScheme, viewport });
+      const found = await page.evaluate(`(async () => { ${axe}; return (await window.axe.run()).violations; })()`);
+      const grave = found.filter(({ impact }) => ['serious', 'critical'].includes(impact));
+      assert.deepEqual(grave.map(({ id, nodes }) => [id, ...nodes.map(({ html, failureSummary }) => `${html} ${failureSummary}`)]), []);
+    }
+  });
+});

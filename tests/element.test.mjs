@@ -1,0 +1,622 @@
+// <vitrine-viewer> in headless Chromium on llvmpipe. Needs what browser.test.mjs needs; skips itself likewise.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { dirname, extname, join, resolve } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
+const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
+const chromiumPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+const axe = resolve(process.env.AXE ?? join(here, 'node_modules/axe-core/axe.min.js'));
+const screenshots = join(here, '../build/screenshots');
+
+const modules = await Promise.all(['playwright-core', 'pixelmatch', 'pngjs'].map((name) => import(name))).catch(() => null);
+const missing = [
+  [modules, "node modules (run 'npm ci' in tests/)"],
+  [existsSync(join(site, 'element/vitrine-viewer.js')), `${site}/element`],
+  [existsSync(binary), binary],
+  [existsSync(chromiumPath), chromiumPath],
+].filter(([there]) => !there).map(([, name]) => name);
+const skip = missing.length > 0 && `missing: ${missing.join(', ')}`;
+const [{ chromium }, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
+
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.png': 'image/png' };
+const csp = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; img-src 'self'";
+const sheet = 'body { margin: 0; background: rgb(20, 90, 40); } vitrine-viewer { width: 160px; height: 160px; } .far { height: 3000px; }';
+
+/** A tetrahedron with an index of refraction, followed by `padding` bytes that no accessor reads. */
+function glb({ ior = 1.3, padding = 0 } = {}) {
+  const positions = new Float32Array([1, 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1]);
+  const indices = new Uint16Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
+  const body = Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer), Buffer.alloc(padding)]);
+  const json = Buffer.from(JSON.stringify({
+    asset: { version: '2.0' },
+    extensionsUsed: ['KHR_materials_ior'],
+    buffers: [{ byteLength: body.length }],
+    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 24 }],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-1, -1, -1], max: [1, 1, 1] },
+      { bufferView: 1, componentType: 5123, count: 12, type: 'SCALAR' },
+    ],
+    materials: [{ extensions: { KHR_materials_ior: { ior } } }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
+    nodes: [{ mesh: 0 }],
+    scenes: [{ nodes: [0] }],
+    scene: 0,
+  }));
+  const padded = Buffer.concat([json, Buffer.alloc((4 - (json.length % 4)) % 4, ' ')]);
+  const words = (...numbers) => Buffer.from(new Uint32Array(numbers).buffer);
+  return Buffer.concat([
+    words(0x46546c67, 2, 12 + 8 + padded.length + 8 + body.length),
+    words(padded.length, 0x4e4f534a), padded, words(body.length, 0x004e4942), body,
+  ]);
+}
+
+/** The built site, test pages from memory, and files that come slowly or not at all. */
+function startServer(requests, pages) {
+  const server = createServer(async (request, response) => {
+    const { pathname } = new URL(request.url, 'http://localhost');
+    requests.push(pathname);
+    const send = (body, type, more = {}) => response.writeHead(200, { 'content-type': type, 'content-length': body.length, ...more }).end(body);
+    if (pages.has(pathname)) {
+      send(Buffer.from(pages.get(pathname).html), 'text/html', pages.get(pathname).headers);
+    } else if (pathname === '/test.css') {
+      send(Buffer.from(sheet), 'text/css');
+    } else if (pathname === '/good.glb') {
+      send(glb(), 'model/gltf-binary');
+    } else if (pathname === '/broken.glb') {
+      send(glb().subarray(0, 100), 'model/gltf-binary');
+    } else if (pathname === '/slow.glb') {
+      const bytes = glb({ padding: 400000 });
+      response.writeHead(200, { 'content-type': 'model/gltf-binary', 'content-length': bytes.length });
+      for (let at = 0; at < bytes.length; at += 50000) {
+        response.write(bytes.subarray(at, at + 50000));
+        await new Promise((done) => setTimeout(done, 60));
+      }
+      response.end();
+    } else if (pathname === '/poster.png') {
+      const png = new PNG({ width: 8, height: 8 });
+      for (let i = 0; i < png.data.length; i += 4) png.data.set([250, 10, 200, 255], i);
+      send(PNG.sync.write(png), 'image/png');
+    } else {
+      const file = join(site, pathname);
+      if (file.startsWith(site) && extname(file) && existsSync(file)) send(readFileSync(file), types[extname(file)] ?? 'application/octet-stream');
+      else response.writeHead(404).end();
+    }
+  });
+  return new Promise((ready) => server.listen(0, '127.0.0.1', () => ready(server)));
+}
+
+/** In the page, before anything else: counts draws and contexts, and collects events. */
+function instrument() {
+  window.counts = { draws: 0, contexts: [] };
+  const { drawArrays } = WebGL2RenderingContext.prototype;
+  WebGL2RenderingContext.prototype.drawArrays = function (...values) {
+    ++window.counts.draws;
+    return drawArrays.apply(this, values);
+  };
+  const { getContext } = HTMLCanvasElement.prototype;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+    const context = getContext.call(this, kind, ...rest);
+    const known = window.counts.contexts.some((ref) => ref.deref() === context);
+    if (kind === 'webgl2' && context && !known) window.counts.contexts.push(new WeakRef(context));
+    return context;
+  };
+  window.liveContexts = () => window.counts.contexts.filter((ref) => ref.deref()?.isContextLost() === false).length;
+  window.events = [];
+  for (const type of ['load', 'progress', 'error', 'camera-change', 'render-scale']) {
+    document.addEventListener(type, (event) => {
+      if (event.target.localName !== 'vitrine-viewer') return;
+      const { sourceError, ...detail } = event.detail;
+      window.events.push({ event: type, id: event.target.id, ...detail, sentence: sourceError?.message, time: performance.now() });
+    }, true);
+  }
+  document.addEventListener('securitypolicyviolation', (event) => (window.violations ??= []).push(event.violatedDirective));
+}
+
+/** Percentage of pixels that differ visibly. */
+function difference(a, b) {
+  assert.deepEqual([a.width, a.height], [b.width, b.height]);
+  return (100 * pixelmatch(a.data, b.data, null, a.width, a.height, { threshold: 0.1 })) / (a.width * a.height);
+}
+
+const pixel = ({ data, width }, x, y) => [...data.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)];
+const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
+
+describe('the element', { skip }, () => {
+  const requests = [], pages = new Map();
+  let server, browser, folder;
+
+  before(async () => {
+    mkdirSync(screenshots, { recursive: true });
+    folder = mkdtempSync(join(tmpdir(), 'vitrine-element-'));
+    server = await startServer(requests, pages);
+    const quiet = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+    const llvmpipe = ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'];
+    browser = await chromium.launch({ executablePath: chromiumPath, args: ['--no-sandbox', ...quiet, ...llvmpipe] });
+  });
+  after(async () => {
+    await browser?.close();
+    server?.close();
+    if (folder) rmSync(folder, { recursive: true, force: true });
+  });
+
+  /** A page with that body. When the test is over its console must hold no error nor warning but those allowed. */
+  async function open(t, body, { init, headers = {}, waits = true, allowed = /^$/, ...options } = {}) {
+    const path = `/page${pages.size}.html`;
+    const head = '<!doctype html><html lang="en"><title>Test</title><link rel="stylesheet" href="/test.css"><link rel="icon" href="/poster.png">';
+    pages.set(path, { html: `${head}<script type="module" src="/element/vitrine-viewer.js"></script>${body}`, headers });
+    const context = await browser.newContext({ viewport: { width: 360, height: 360 }, ...options });
+    const page = await context.newPage();
+    const complaints = [];
+    page.on('pageerror', (error) => complaints.push(String(error)));
+    page.on('console', (message) => {
+      const isBad = ['error', 'warning'].includes(message.type()) && !/GPU stall|fallback to software/.test(message.text());
+      if (isBad && !allowed.test(message.text())) complaints.push(message.text());
+    });
+    t.after(async () => {
+      await context.close();
+      assert.deepEqual(complaints, []);
+    });
+    await page.addInitScript(instrument);
+    if (init) await page.addInitScript(init);
+    await page.goto(`http://127.0.0.1:${server.address().port}${path}`);
+    if (waits) {
+      await page.waitForFunction(() => [...document.querySelectorAll('vitrine-viewer')].every((viewer) => viewer.loaded));
+      await settle(page);
+    }
+    return page;
+  }
+
+  const draws = (page) => page.evaluate(() => window.counts.draws);
+  const events = (page, type) => page.evaluate((name) => window.events.filter(({ event }) => event === name), type);
+  const message = (page, id = 'a') => page.evaluate((name) => {
+    const part = document.getElementById(name).shadowRoot.querySelector('[part=message]');
+    return part.hidden ? '' : part.textContent;
+  }, id);
+  const shot = async (page, id = 'a') => PNG.sync.read(await page.locator(`#${id}`).screenshot());
+
+  /** Until nothing has been drawn for longer than a view takes to rest. */
+  async function settle(page) {
+    for (let before = -1, now = 0; before !== now; ) {
+      before = await draws(page);
+      await pause(400);
+      now = await draws(page);
+    }
+  }
+
+  async function picture(page, id = 'a') {
+    const url = await page.evaluate((name) => document.getElementById(name).toDataURL(), id);
+    return PNG.sync.read(Buffer.from(url.split(',')[1], 'base64'));
+  }
+
+  function nativePicture(...args) {
+    const result = spawnSync(binary, ['render', ...args, '-o', 'native.png', '--resolution', '256,256'],
+      { cwd: folder, env: { ...process.env, ASAN_OPTIONS: 'detect_leaks=0' } });
+    assert.equal(result.status, 0, result.stderr.toString());
+    return PNG.sync.read(readFileSync(join(folder, 'native.png')));
+  }
+
+  test('draws what the native program draws', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="knot" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
+    for (const technique of ['layered', 'wyman', 'single']) {
+      await page.evaluate((id) => (a.technique = id), technique);
+      const expected = nativePicture('knot', '--technique', technique);
+      await settle(page);
+      for (const [name, seen] of [['toBlob', await picture(page)], ['screen', await shot(page)]]) {
+        const differing = difference(seen, expected);
+        t.diagnostic(`${technique}, ${name}: ${differing.toFixed(4)} % differ`);
+        assert.ok(differing < 0.5, `${technique}, ${name}: ${differing} % differ`);
+      }
+    }
+    await page.evaluate(() => Object.assign(a, { technique: 'layered', src: 'goblet', environmentImage: 'checker', cameraOrbit: '0rad 90deg 6m', cameraTarget: '0m 0m 0m', exposure: 2, ior: 1.3 }));
+    await page.waitForFunction(() => a.loaded);
+    await settle(page);
+    const expected = nativePicture('goblet', '-e', 'checker', '--camera', '0,0,6', '--target', '0,0,0', '--exposure', '1', '--ior', '1.3');
+    assert.ok(difference(await picture(page), expected) < 0.5, 'a view of its own');
+  });
+
+  test('several on a page share one module and do not disturb each other', async (t) => {
+    requests.length = 0;
+    const page = await open(t, `<vitrine-viewer id="a" src="sphere" camera-controls></vitrine-viewer>
+      <vitrine-viewer id="b" src="goblet" environment-image="sky" skybox-image></vitrine-viewer>`);
+    assert.equal(requests.filter((path) => path.endsWith('.wasm')).length, 1);
+    const [a, b] = [await shot(page), await shot(page, 'b')];
+    await page.screenshot({ path: join(screenshots, 'element-two.png') });
+    assert.ok(difference(a, b) > 20);
+    await page.focus('#a');
+    await page.evaluate(() => a.setAttribute('src', 'diamond'));
+    await page.waitForFunction(() => a.loaded);
+    await settle(page);
+    assert.ok(difference(a, await shot(page)) > 5, 'one changes');
+    assert.equal(difference(b, await shot(page, 'b')), 0, 'the other stays');
+    await page.evaluate(() => a.remove());
+    await pause(50);
+    await page.evaluate(() => (b.src = 'bottle'));
+    await page.waitForFunction(() => b.loaded);
+    await settle(page);
+    assert.ok(difference(b, await shot(page, 'b')) > 2, 'and goes on alone');
+  });
+
+  test('shows the page behind the glass, or the environment', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere"></vitrine-viewer>');
+    const clear = await shot(page);
+    await page.locator('#a').screenshot({ path: join(screenshots, 'element-transparent.png') });
+    for (const [x, y] of [[2, 2], [157, 2], [2, 157], [157, 157]]) assert.deepEqual(pixel(clear, x, y), [20, 90, 40]);
+    const glass = new Set();
+    for (let x = 50; x < 110; ++x) glass.add(String(pixel(clear, x, 80)));
+    assert.ok(!glass.has('20,90,40') && glass.size > 10, 'the glass shows the studio');
+    await page.evaluate(() => a.setAttribute('skybox-image', 'checker'));
+    await settle(page);
+    const full = await shot(page);
+    assert.notDeepEqual(pixel(full, 2, 2), [20, 90, 40]);
+    assert.ok(difference(clear, full) > 30);
+  });
+
+  test('adding, removing and moving leaks nothing', async (t) => {
+    const page = await open(t, '<div id="one"></div><div id="two"></div>', { waits: false });
+    const measured = await page.evaluate(async () => {
+      const { VitrineViewer } = await import('/element/vitrine-viewer.js');
+      window.refs = [];
+      const loads = (viewer) => new Promise((done) => viewer.addEventListener('load', done, { once: true }));
+      const cycle = async (count) => {
+        for (let i = 0; i < count; ++i) {
+          const viewer = document.createElement('vitrine-viewer');
+          Object.assign(viewer, { src: 'knot', steps: 2, layers: 1 });
+          window.refs.push(new WeakRef(viewer));
+          window.one.append(viewer);
+          await loads(viewer);
+          viewer.remove();
+          await new Promise((done) => setTimeout(done));
+        }
+      };
+      await cycle(5);
+      const before = (await VitrineViewer.statistics()).heapBytes;
+      const start = performance.now();
+      await cycle(100);
+      const after = await VitrineViewer.statistics();
+      const milliseconds = performance.now() - start;
+
+      const viewer = document.createElement('vitrine-viewer');
+      viewer.src = 'sphere';
+      window.one.append(viewer);
+      await loads(viewer);
+      const made = window.counts.contexts.length;
+      for (let i = 0; i < 100; ++i) {
+        (i % 2 ? window.one : window.two).append(viewer);
+        await new Promise((done) => setTimeout(done));
+      }
+      const moved = { made: window.counts.contexts.length - made, live: window.liveContexts(), ...(await VitrineViewer.statistics()) };
+      viewer.remove();
+      await new Promise((done) => setTimeout(done, 10));
+      return { before, after, milliseconds, moved, live: window.liveContexts(), last: await VitrineViewer.statistics() };
+    });
+    t.diagnostic(JSON.stringify(measured));
+    assert.equal(measured.after.heapBytes, measured.before, 'the heap does not grow');
+    assert.equal(measured.after.contexts, 0);
+    assert.deepEqual([measured.moved.made, measured.moved.live, measured.moved.contexts], [0, 1, 1], 'moving keeps the context');
+    assert.deepEqual([measured.live, measured.last.contexts], [0, 0]);
+    await (await page.context().newCDPSession(page)).send('HeapProfiler.collectGarbage');
+    const kept = await page.evaluate(() => window.refs.filter((ref) => ref.deref()).length);
+    t.diagnostic(`${kept} of 105 elements are still in memory`);
+    assert.ok(kept <= 2);
+  });
+
+  test('more elements than a browser has contexts', async (t) => {
+    const page = await open(t, Array.from({ length: 24 }, (_, i) => `<vitrine-viewer id="v${i}" src="sphere" layers="1" steps="2"></vitrine-viewer>`).join('')
+      + '<style>vitrine-viewer { height: 300px }</style>', { waits: false });
+    for (let i = 0; i < 24; ++i) {
+      await page.evaluate((k) => document.getElementById(`v${k}`).scrollIntoView(), i);
+      await page.waitForFunction((k) => document.getElementById(`v${k}`).loaded, i);
+    }
+    const live = await page.evaluate(() => window.liveContexts());
+    t.diagnostic(`${live} contexts`);
+    assert.ok(live <= 12);
+    await page.evaluate(() => window.v0.scrollIntoView());
+    await settle(page);
+    const first = await shot(page, 'v0');
+    assert.notDeepEqual(pixel(first, 80, 150), [20, 90, 40], 'the first comes back');
+  });
+
+  test('poster and progress stand until the first frame', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="/slow.glb" poster="/poster.png" alt="A pyramid"></vitrine-viewer>', { waits: false });
+    await page.waitForFunction(() => window.events.filter(({ totalProgress }) => totalProgress > 0.3).length > 0);
+    const loading = await shot(page);
+    writeFileSync(join(screenshots, 'element-loading.png'), PNG.sync.write(loading));
+    assert.deepEqual(pixel(loading, 80, 80), [250, 10, 200]);
+    assert.notDeepEqual(pixel(loading, 10, 2), [250, 10, 200], 'the bar');
+    await page.waitForFunction(() => a.loaded);
+    await settle(page);
+    assert.deepEqual(pixel(await shot(page), 2, 2), [20, 90, 40], 'the poster is gone');
+    const values = (await events(page, 'progress')).map(({ totalProgress }) => totalProgress);
+    t.diagnostic(values.map((value) => value.toFixed(3)).join(' '));
+    assert.ok(values.length >= 8 && values[0] === 0 && values.at(-1) === 1);
+    assert.ok(values.every((value, i) => i === 0 || value > values[i - 1]));
+    assert.equal((await events(page, 'load')).length, 1);
+    assert.equal(await page.evaluate(() => getComputedStyle(a.shadowRoot.querySelector('[part=progress-bar]')).display), 'none');
+
+    await page.evaluate(() => {
+      a.outerHTML = '<vitrine-viewer id="a" src="sphere" reveal="manual"><div slot="poster" id="words">Soon</div></vitrine-viewer>';
+    });
+    await page.waitForFunction(() => a.loaded);
+    assert.ok(await page.isVisible('#words'));
+    await page.evaluate(() => a.dismissPoster());
+    assert.ok(await page.isHidden('#words'));
+    assert.ok(await page.evaluate(() => a.modelIsVisible));
+  });
+
+  test('a failed load says why and leaves the picture', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="/good.glb"></vitrine-viewer>', { allowed: /404/ });
+    const first = await shot(page);
+    const picked = await picture(page);
+    const cases = { '/missing.glb': /missing\.glb: the server answered 404/, '/broken.glb': /broken\.glb/, teapot: /teapot/ };
+    for (const [src, sentence] of Object.entries(cases)) {
+      await page.evaluate((url) => (a.src = url), src);
+      await page.waitForFunction((count) => window.events.filter(({ event }) => event === 'error').length === count, Object.keys(cases).indexOf(src) + 1);
+      assert.match(await message(page), sentence);
+      const error = (await events(page, 'error')).at(-1);
+      assert.equal(error.type, 'loadfailure');
+      assert.match(error.sentence, sentence);
+      assert.equal(await page.evaluate(() => a.loaded), false);
+      assert.equal(difference(picked, await picture(page)), 0);
+    }
+    await page.locator('#a').screenshot({ path: join(screenshots, 'element-error.png') });
+    await page.evaluate(() => (a.src = '/good.glb'));
+    await page.waitForFunction(() => a.loaded);
+    assert.equal(await message(page), '');
+    assert.equal(difference(first, await shot(page)), 0);
+
+    await page.evaluate(() => Object.assign(a, { ior: 9, layers: 2.5, cameraOrbit: 'left' }));
+    await pause(50);
+    const text = await message(page);
+    for (const part of [/ior is '9'; it must be a number from 1 to 4; 4 is used/, /layers is '2.5'/, /camera-orbit is 'left'/]) assert.match(text, part);
+    assert.deepEqual((await events(page, 'error')).at(-1).type, 'invalid');
+    assert.deepEqual(await page.evaluate(() => [a.ior, a.layers]), [4, 3]);
+  });
+
+  test('an outdated load is dropped', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="/slow.glb"></vitrine-viewer>', { waits: false });
+    await page.waitForFunction(() => window.events.some(({ totalProgress }) => totalProgress > 0.1));
+    await page.evaluate(() => (a.src = 'torus'));
+    await page.waitForFunction(() => a.loaded);
+    await pause(700);
+    assert.deepEqual((await events(page, 'load')).map(({ url }) => url), ['torus']);
+    assert.deepEqual(await events(page, 'error'), []);
+  });
+
+  test('turns under mouse, wheel, keys and sliders', async (t) => {
+    const page = await open(t, '<a id="before" href="#">before</a><vitrine-viewer id="a" src="diamond" camera-controls alt="A diamond"></vitrine-viewer><a href="#" id="next">next</a>');
+    const orbit = () => page.evaluate(() => ({ ...a.getCameraOrbit() }));
+    const first = await picture(page);
+    const start = await orbit();
+    const box = await page.locator('#a').boundingBox();
+    await page.mouse.move(box.x + 80, box.y + 80);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 120, box.y + 90, { steps: 3 });
+    await page.mouse.up();
+    const turned = await orbit();
+    assert.ok(Math.abs(start.theta - turned.theta - Math.PI / 4) < 1e-6, 'a quarter of the height is an eighth of a turn');
+    assert.ok(turned.phi < start.phi, 'down shows the top');
+    await page.mouse.move(box.x + 20, box.y + 20);
+    assert.deepEqual({ ...(await orbit()), toString: 0 }, { ...turned, toString: 0 }, 'a released button turns nothing');
+    await page.mouse.wheel(0, 200);
+    await page.waitForFunction((radius) => a.getCameraOrbit().radius > 1.1 * radius, turned.radius);
+    const changes = await events(page, 'camera-change');
+    assert.equal(changes.at(-1).source, 'user-interaction');
+
+    await page.evaluate(() => (a.disableZoom = true));
+    const far = await orbit();
+    await page.mouse.wheel(0, -200);
+    await pause(50);
+    assert.equal((await orbit()).radius, far.radius, 'disable-zoom');
+    await page.evaluate(() => (a.disableZoom = false));
+
+    await page.focus('#before');
+    await page.keyboard.press('Tab');
+    const focused = await page.evaluate(() => {
+      const { activeElement } = a.shadowRoot;
+      return [activeElement?.getAttribute('role'), activeElement?.getAttribute('aria-label'), getComputedStyle(activeElement).outlineStyle];
+    });
+    assert.deepEqual(focused, ['application', 'A diamond', 'solid']);
+    await page.locator('#a').screenshot({ path: join(screenshots, 'element-focus.png') });
+    await page.keyboard.press('Home');
+    assert.deepEqual({ ...(await orbit()), toString: 0 }, { ...start, toString: 0 });
+    for (const [key, name, sign] of [['ArrowLeft', 'theta', -1], ['ArrowRight', 'theta', 1], ['ArrowUp', 'phi', -1], ['ArrowDown', 'phi', 1], ['+', 'radius', -1], ['-', 'radius', 1]]) {
+      const old = await orbit();
+      await page.keyboard.press(key);
+      assert.equal(Math.sign((await orbit())[name] - old[name]), sign, key);
+    }
+    await page.keyboard.press('ArrowLeft');
+    await page.waitForFunction(() => /^Seen from .* at 100 %/.test(a.shadowRoot.querySelector('[role=status]').textContent));
+    t.diagnostic(await page.evaluate(() => a.shadowRoot.querySelector('[role=status]').textContent));
+    await page.keyboard.press('Tab');
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'next', 'one stop, and Tab leaves it');
+
+    await page.evaluate(() => {
+      const turn = a.shadowRoot.querySelector('[aria-label=Turn]');
+      turn.value = 90;
+      turn.dispatchEvent(new Event('input'));
+    });
+    assert.ok(Math.abs((await orbit()).theta - Math.PI / 2) < 1e-6, 'a slider for screen readers');
+    await page.evaluate(() => a.resetView());
+    await settle(page);
+    assert.equal(difference(first, await picture(page)), 0, 'and back');
+  });
+
+  test('turns under fingers', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="knot" layers="2" steps="8" camera-controls></vitrine-viewer>', { hasTouch: true });
+    const touch = await page.context().newCDPSession(page);
+    const send = (type, ...points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const orbit = () => page.evaluate(() => ({ ...a.getCameraOrbit() }));
+    const start = await orbit();
+    await send('touchStart', [40, 80]);
+    await send('touchMove', [70, 82]);
+    await send('touchMove', [100, 82]);
+    await send('touchEnd');
+    const turned = await orbit();
+    assert.ok(turned.theta < start.theta - 0.3, 'one finger turns');
+    await send('touchStart', [60, 80], [90, 80]);
+    await send('touchMove', [40, 80], [110, 80]);
+    await send('touchMove', [30, 80], [120, 80]);
+    await send('touchEnd');
+    assert.ok((await orbit()).radius < 0.6 * turned.radius, 'two fingers zoom');
+    assert.equal((await orbit()).theta, turned.theta);
+    assert.equal(await page.evaluate(() => getComputedStyle(a.shadowRoot.querySelector('.view')).touchAction), 'pan-y');
+  });
+
+  test('auto-rotate turns, but not against the visitor', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="torus" layers="2" steps="4" auto-rotate></vitrine-viewer>', { waits: false });
+    await page.waitForFunction(() => a.loaded);
+    const theta = () => page.evaluate(() => a.getCameraOrbit().theta);
+    const old = await theta();
+    await page.waitForFunction((before) => a.getCameraOrbit().theta > before + 0.05, old);
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+    await settle(page);
+    const [rest, count] = [await theta(), await draws(page)];
+    await pause(500);
+    assert.deepEqual([await theta(), await draws(page)], [rest, count]);
+  });
+
+  test('nothing is drawn while idle, off screen or hidden', async (t) => {
+    requests.length = 0;
+    const page = await open(t, '<vitrine-viewer id="a" src="torus" layers="2" steps="4" camera-controls></vitrine-viewer><div class="far"></div><vitrine-viewer id="b" src="/broken.glb"></vitrine-viewer><vitrine-viewer src="/good.glb" loading="eager"></vitrine-viewer>', { waits: false });
+    await page.waitForFunction(() => a.loaded);
+    await settle(page);
+    assert.deepEqual(requests.filter((path) => path.endsWith('.glb')), ['/good.glb'], 'only what is eager is fetched');
+    const idle = await draws(page);
+    await pause(1000);
+    assert.equal(await draws(page), idle, 'idle');
+    assert.equal(await page.evaluate(() => window.counts.contexts.length), 1, 'the others have no context yet');
+    await page.evaluate(() => scrollTo(0, 600));
+    await pause(100);
+    await page.evaluate(() => (a.autoRotate = true));
+    await pause(500);
+    assert.equal(await draws(page), idle, 'off screen');
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.waitForFunction((count) => window.counts.draws > count, idle);
+    await page.evaluate(() => (a.hidden = true));
+    await pause(150);
+    const hidden = await draws(page);
+    await pause(500);
+    assert.equal(await draws(page), hidden, 'hidden');
+  });
+
+  test('quality="auto" holds the frame time and ends with a full frame', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="knot" camera-controls steps="100"></vitrine-viewer><style>vitrine-viewer { width: 220px; height: 220px }</style>', { deviceScaleFactor: 3, waits: false });
+    await page.waitForFunction(() => a.loaded);
+    await settle(page);
+    const first = (await events(page, 'render-scale'))[0];
+    assert.deepEqual([first.reportedDpr, first.renderedDpr, first.pixelWidth, first.steps, first.reason], [3, 2, 440, 100, 'still']);
+    const full = await picture(page);
+    await page.evaluate(() => (a.autoRotate = true));
+    await page.waitForFunction(() => window.events.filter(({ event }) => event === 'render-scale').length > 2);
+    await pause(700);
+    await page.screenshot({ path: join(screenshots, 'element-moving.png') });
+    await page.evaluate(() => (a.autoRotate = false));
+    await page.waitForFunction(() => window.events.findLast(({ event }) => event === 'render-scale').reason === 'still');
+    await settle(page);
+    const scales = await events(page, 'render-scale');
+    t.diagnostic(scales.map((one) => `${one.pixelWidth} px, ${one.layers} layers, ${one.steps} steps (${one.reason})`).join('; '));
+    assert.ok(scales.some(({ reason, pixelWidth, steps }) => reason === 'frame-time' && pixelWidth < 300 && steps < 100));
+    assert.deepEqual([scales.at(-1).pixelWidth, scales.at(-1).layers, scales.at(-1).steps], [440, 4, 100]);
+    await page.evaluate(() => a.resetView());
+    await settle(page);
+    assert.equal(difference(full, await picture(page)), 0);
+    await page.evaluate(() => (a.quality = 'low'));
+    await settle(page);
+    assert.equal((await events(page, 'render-scale')).at(-1).pixelWidth, 220);
+  });
+
+  test('a lost context comes back with its scene', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="/good.glb" environment-image="sky" camera-controls></vitrine-viewer><div class="far"></div>', { allowed: /CONTEXT_LOST/ });
+    await page.focus('#a');
+    await page.evaluate(() => a.shadowRoot.querySelector('.view').focus());
+    await page.keyboard.press('ArrowLeft');
+    await settle(page);
+    await page.evaluate(() => document.activeElement.blur());
+    const first = await shot(page);
+    requests.length = 0;
+    await page.evaluate(() => {
+      window.loss = window.counts.contexts.at(-1).deref().getExtension('WEBGL_lose_context');
+      window.loss.loseContext();
+    });
+    await page.waitForFunction(() => window.events.some(({ type }) => type === 'webglcontextlost'));
+    assert.match(await message(page), /context was lost/);
+    await page.evaluate(() => (a.ior = 1.7)); // a change in the meantime is kept
+    await page.evaluate(() => a.removeAttribute('ior'));
+    await page.evaluate(() => window.loss.restoreContext());
+    await page.waitForFunction(() => a.shadowRoot.querySelector('[part=message]').hidden);
+    await settle(page);
+    assert.equal(difference(first, await shot(page)), 0);
+    assert.deepEqual(requests, [], 'from the bytes that were kept');
+
+    // Not given back: a new one once the element comes into view again.
+    await page.evaluate(() => window.counts.contexts.at(-1).deref().getExtension('WEBGL_lose_context').loseContext());
+    await page.waitForFunction(() => !a.shadowRoot.querySelector('[part=message]').hidden);
+    await page.evaluate(() => scrollTo(0, 1000));
+    await pause(100);
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.waitForFunction(() => a.shadowRoot.querySelector('[part=message]').hidden);
+    await settle(page);
+    assert.equal(difference(first, await shot(page)), 0);
+  });
+
+  test('without WebGL 2 there is the poster and a sentence', async (t) => {
+    const init = () => {
+      const real = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind === 'webgl2' ? null : real.call(this, kind, ...rest);
+      };
+    };
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere" poster="/poster.png"></vitrine-viewer>', { init, waits: false });
+    await page.waitForFunction(() => window.events.some(({ type }) => type === 'unsupported'));
+    assert.match(await message(page), /WebGL 2/);
+    await page.waitForFunction(() => a.shadowRoot.querySelector('img').naturalWidth > 0);
+    assert.deepEqual(pixel(await shot(page), 80, 3), [250, 10, 200]);
+    await page.locator('#a').screenshot({ path: join(screenshots, 'element-no-webgl.png') });
+  });
+
+  test('passes a strict Content Security Policy', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="/good.glb" poster="/poster.png" camera-controls auto-rotate></vitrine-viewer>',
+      { headers: { 'content-security-policy': csp }, waits: false });
+    await page.waitForFunction(() => document.querySelector('vitrine-viewer').loaded);
+    assert.deepEqual(await page.evaluate(() => window.violations ?? []), []);
+    assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector('vitrine-viewer')).display), 'block', 'its sheet is in force');
+  });
+
+  test('axe-core finds nothing', { skip: !existsSync(axe) && 'axe-core is not installed' }, async (t) => {
+    const page = await open(t, '<main><h1 style="color: white">Glass</h1><vitrine-viewer id="a" src="sphere" camera-controls alt="A sphere"></vitrine-viewer><vitrine-viewer src="torus" alt="A ring"></vitrine-viewer></main>');
+    await page.addScriptTag({ path: axe });
+    const found = await page.evaluate(async () => {
+      const { violations, passes } = await window.axe.run();
+      return { violations: violations.map(({ id, help }) => `${id}: ${help}`), passes: passes.length };
+    });
+    t.diagnostic(`${found.passes} rules passed`);
+    assert.deepEqual(found.violations, []);
+  });
+
+  test('properties set before the class is there count', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a"></vitrine-viewer><script>a.src = "torus"; a.ior = 1.2</script>');
+    assert.deepEqual(await page.evaluate(() => [a.getAttribute('src'), a.getAttribute('ior'), a.loaded]), ['torus', '1.2', true]);
+  });
+
+  test('properties reflect attributes', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere" ior="1.4"></vitrine-viewer>');
+    const seen = await page.evaluate(() => {
+      const before = [a.ior, a.technique, a.cameraControls, a.layers];
+      Object.assign(a, { ior: null, cameraControls: true, maxEvents: 3 });
+      return [before, a.ior, a.hasAttribute('ior'), a.getAttribute('camera-controls'), a.getAttribute('max-events'), a.constructor.observedAttributes.length];
+    });
+    assert.deepEqual(seen, [[1.4, 'layered', false, 4], null, false, '', '3', 23]);
+    const blob = await page.evaluate(async () => {
+      const { type, size } = await a.toBlob({ mimeType: 'image/jpeg' });
+      return [type, size > 1000];
+    });
+    assert.deepEqual(blob, ['image/jpeg', true]);
+  });
+});

@@ -1,0 +1,134 @@
+// The npm package as strangers use it: packed, installed into a fresh Vite project and into a plain page, and
+// glass is seen in both. Also that the documentation made from the element's table is up to date.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { dirname, extname, join, resolve } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = resolve(here, '..');
+const missing = !existsSync(join(root, 'build/web/vitrine-core.wasm'))
+  ? 'the page is not built (scripts/build-web.sh)'
+  : !existsSync('/usr/bin/chromium')
+    ? 'chromium is not installed'
+    : !existsSync(join(here, 'node_modules/vite'))
+      ? 'npm packages are not installed (tests/package.json)'
+      : false;
+
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css' };
+
+/** Serves a folder on a free port of this machine. */
+async function serve(folder) {
+  const server = createServer((request, response) => {
+    const path = join(folder, new URL(request.url, 'http://localhost').pathname.replace(/\/$/, '/index.html'));
+    if (!path.startsWith(folder) || !existsSync(path)) {
+      response.writeHead(404).end();
+      return;
+    }
+    response.writeHead(200, { 'content-type': types[extname(path)] ?? 'application/octet-stream' }).end(readFileSync(path));
+  });
+  await new Promise((done) => server.listen(0, '127.0.0.1', done));
+  return { address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
+}
+
+describe('the package', { skip: missing }, () => {
+  const folder = mkdtempSync(join(tmpdir(), 'vitrine-package-'));
+  let tarball, browser, report;
+
+  before(async () => {
+    report = execFileSync('node', [join(root, 'scripts/package.mjs')]).toString();
+    tarball = join(root, report.split('\n')[0]);
+    const { chromium } = await import('playwright-core');
+    browser = await chromium.launch({
+      executablePath: '/usr/bin/chromium',
+      args: ['--headless=new', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
+        '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'],
+    });
+  });
+  after(async () => {
+    await browser?.close();
+    rmSync(folder, { recursive: true, force: true });
+  });
+
+  /** How many different colours the element shows: one or two without glass, hundreds with it. */
+  async function colours(site) {
+    const server = await serve(site);
+    try {
+      return await coloursAt(server.address);
+    } finally {
+      server.close();
+    }
+  }
+
+  async function coloursAt(address) {
+    const { PNG } = await import('pngjs');
+    const page = await browser.newPage({ viewport: { width: 320, height: 240 } });
+    const problems = [];
+    page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
+    page.on('pageerror', (error) => problems.push(error.message));
+    await page.goto(address);
+    await page.waitForFunction(() => document.querySelector('vitrine-viewer')?.loaded, null, { timeout: 60000 });
+    await page.waitForTimeout(1500);
+    const picture = PNG.sync.read(await page.screenshot());
+    await page.close();
+    assert.deepEqual(problems, []);
+    return new Set(new Uint32Array(picture.data.buffer, picture.data.byteOffset, picture.data.length / 4)).size;
+  }
+
+  const head = '<!doctype html><link rel="icon" href="data:,">';
+  const element = '<vitrine-viewer src="knot" style="width:300px;height:200px"></vitrine-viewer>';
+
+  test('in a plain page, from one file', async () => {
+    const site = join(folder, 'plain');
+    mkdirSync(site);
+    execFileSync('tar', ['-xzf', tarball, '-C', site]);
+    cpSync(join(site, 'package/vitrine-viewer.bundle.js'), join(site, 'vitrine-viewer.bundle.js'));
+    rmSync(join(site, 'package'), { recursive: true });
+    writeFileSync(join(site, 'index.html'),
+      `${head}<script type="module" src="vitrine-viewer.bundle.js"></script>${element}`);
+    assert.ok((await colours(site)) > 300);
+  });
+
+  test('in a fresh Vite project', async () => {
+    const site = join(folder, 'vite');
+    mkdirSync(site);
+    writeFileSync(join(site, 'package.json'), JSON.stringify({ private: true, type: 'module' }));
+    const installed = spawnSync('npm', ['install', '--offline', '--no-audit', '--no-fund', tarball], { cwd: site });
+    assert.equal(installed.status, 0, installed.stderr.toString());
+    writeFileSync(join(site, 'main.js'), "import 'vitrine-viewer';\n");
+    writeFileSync(join(site, 'index.html'), `${head}<script type="module" src="/main.js"></script>${element}`);
+    const built = spawnSync('node', [join(here, 'node_modules/vite/bin/vite.js'), 'build', '--logLevel', 'error'], { cwd: site });
+    assert.equal(built.status, 0, built.stderr.toString());
+    assert.ok(readdirSync(join(site, 'dist/assets')).some((name) => name.endsWith('.wasm')), 'the wasm is an asset');
+    assert.ok((await colours(join(site, 'dist'))) > 300);
+  });
+
+  test('holds types, manifest and a description', () => {
+    const site = join(folder, 'look');
+    mkdirSync(site);
+    execFileSync('tar', ['-xzf', tarball, '-C', site]);
+    const about = JSON.parse(readFileSync(join(site, 'package/package.json'), 'utf8'));
+    assert.equal(Object.keys(about.exports['.'])[0], 'types');
+    for (const file of [about.types, about.main, about.customElements, 'vitrine-core.wasm', 'README.md']) {
+      assert.ok(existsSync(join(site, 'package', file)), file);
+    }
+    const manifest = JSON.parse(readFileSync(join(site, 'package/custom-elements.json'), 'utf8'));
+    assert.equal(manifest.modules[0].declarations[0].tagName, 'vitrine-viewer');
+    assert.match(readFileSync(join(site, 'package/index.d.ts'), 'utf8'), /cameraOrbit: string;/);
+  });
+
+  test('weighs what a page can carry', (context) => {
+    const kilobytes = Number(report.match(/loads: ([\d.]+) KB/)[1]);
+    context.diagnostic(report);
+    assert.ok(kilobytes < 150, `${kilobytes} KB gzip`);
+  });
+});
+
+test('docs/attributes.md is up to date', () => {
+  const result = spawnSync('node', [join(root, 'scripts/describe-element.mjs'), '--check']);
+  assert.equal(result.status, 0, result.stderr.toString());
+});

@@ -1,0 +1,165 @@
+// The panel and the gallery: everything a visitor can set, in step with the store.
+import { environments, extraModels, outputs, presets, qualities, shapes, techniques } from './state.js';
+
+const element = (id) => document.getElementById(id);
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
+const outputNames = { picture: 'Picture', analysis: 'Paths', 'layer-depth': 'Depth', 'layer-normal': 'Normals' };
+const themeNames = { auto: 'System', dark: 'Dark', light: 'Light' };
+
+/** Colours of present.frag, in words. */
+const legends = {
+  analysis: [['two', 'two refractions'], ['more', 'more'], ['total', 'total reflection'], ['lost', 'lost']],
+  'layer-depth': [['near', 'near'], ['far', 'far'], ['none', 'no surface']],
+};
+
+const sliders = {
+  ior: (value) => value.toFixed(3),
+  layers: String,
+  steps: String,
+  events: String,
+  layer: (value) => String(value + 1),
+  exposure: (value) => `${value > 0 ? '+' : ''}${value.toFixed(1)} EV`,
+  fov: (value) => `${Math.round(value)}°`,
+};
+const checks = ['backdrop', 'rotate'];
+
+function create(name, properties, ...children) {
+  const node = Object.assign(document.createElement(name), properties);
+  node.append(...children);
+  return node;
+}
+
+/** Radio buttons that look like one control. */
+function addSegment(id, value, name, onChoose) {
+  const input = create('input', { type: 'radio', name: id, value });
+  input.addEventListener('change', () => onChoose(value));
+  element(id).append(create('label', { className: 'segment' }, input, create('span', { textContent: name })));
+  return input;
+}
+
+function choose(id, value) {
+  for (const input of element(id).querySelectorAll('input')) input.checked = input.value === value;
+}
+
+function addShape(url, name, picture, onChoose) {
+  const image = picture ? create('img', { src: picture, alt: '', width: 56, height: 56, draggable: false }) : create('span', { className: 'blank', textContent: '.glb' });
+  const button = create('button', { type: 'button', className: 'shape' }, image, create('span', { className: 'name', textContent: name }));
+  button.setAttribute('aria-label', name); // low windows show the picture alone
+  button.dataset.url = url;
+  button.addEventListener('click', () => onChoose(url));
+  element('gallery').append(button);
+  return button;
+}
+
+/**
+ * @param {import('./state.js').Store} store
+ * @param {object} page what the buttons do, and what the viewer can
+ */
+export function buildControls(store, page) {
+  const chooseModel = (model) => store.set({ model, orbit: 'auto auto auto', target: 'auto auto auto' });
+  for (const shape of shapes) addShape(shape, capital(shape), `pictures/${shape}.png`, chooseModel);
+  for (const [id, { title, picture }] of extraModels) addShape(id, title, picture, chooseModel);
+  for (const { id, name, ior } of presets) {
+    const button = create('button', { type: 'button', className: 'chip', textContent: name });
+    button.dataset.preset = id;
+    button.addEventListener('click', () => store.set({ ior }));
+    element('presets').append(button);
+  }
+  fillTechniques(store, page);
+  for (const value of qualities) addSegment('quality', value, capital(value), (quality) => store.set({ quality }));
+  for (const value of environments) addSegment('environment', value, capital(value), (environment) => store.set({ environment }));
+  for (const value of outputs) {
+    const input = addSegment('output', value, outputNames[value], (output) => store.set({ output }));
+    input.disabled = value !== 'picture' && !page.canShow.output;
+  }
+  for (const [value, name] of Object.entries(themeNames)) addSegment('theme', value, name, (theme) => store.set({ theme }));
+
+  for (const id of Object.keys(sliders)) {
+    element(id).addEventListener('input', ({ target }) => store.set({ [id]: Number(target.value) }));
+  }
+  for (const id of checks) element(id).addEventListener('change', ({ target }) => store.set({ [id]: target.checked }));
+  element('trace').disabled = !page.canShow.path;
+  const buttons = { reset: page.resetView, save: page.savePicture, link: page.copyLink, keep: page.keepPicture, trace: page.trace };
+  for (const [id, act] of Object.entries(buttons)) element(id).addEventListener('click', act);
+  const pickers = {
+    'model-file': (file) => page.openFile(file, 'model'),
+    'image-file': (file) => page.openFile(file, 'environment'),
+    'picture-file': page.comparePicture,
+  };
+  for (const [id, act] of Object.entries(pickers)) {
+    element(id).addEventListener('change', ({ target }) => {
+      if (target.files.length > 0) act(target.files[0]);
+      target.value = ''; // the same file can be chosen again
+    });
+  }
+  element('fold').addEventListener('click', () => fold(element('fold').getAttribute('aria-expanded') === 'true'));
+  element('controls').addEventListener('submit', (event) => event.preventDefault());
+  store.subscribe((state) => show(state, page.files, chooseModel, store));
+  document.body.classList.add('ready');
+}
+
+function fillTechniques(store, page) {
+  const option = ({ id, name, year }) => new Option(`${name} · ${year}`, id);
+  element('technique').append(...techniques.map(option).reverse());
+  const ladder = create('optgroup', { label: 'Another technique' }, ...techniques.map(option).reverse());
+  const pictures = create('optgroup', { label: 'A stored picture', id: 'pictures' }, new Option('Ray-traced reference', 'reference'));
+  element('compare').append(new Option('Nothing', 'none'), ladder, pictures);
+  element('technique').addEventListener('change', ({ target }) => store.set({ technique: target.value }));
+  element('compare').addEventListener('change', ({ target }) => {
+    if (target.value === 'reference') page.chooseReference();
+    else store.set({ compare: target.value });
+  });
+}
+
+function fold(isFolded) {
+  document.body.classList.toggle('folded', isFolded);
+  element('fold').setAttribute('aria-expanded', String(!isFolded));
+}
+
+function show(state, files, chooseModel, store) {
+  if (files.has(state.model) && !element('gallery').querySelector(`[data-url="${state.model}"]`)) {
+    addShape(state.model, files.get(state.model), null, chooseModel);
+  }
+  for (const button of element('gallery').children) button.setAttribute('aria-pressed', String(button.dataset.url === state.model));
+  if (files.has(state.environment) && !element('environment').querySelector(`[value="${state.environment}"]`)) {
+    element('environment').querySelector('.file')?.remove();
+    addSegment('environment', state.environment, files.get(state.environment), (environment) => store.set({ environment }))
+      .parentElement.classList.add('file');
+  }
+  if (files.has(state.compare) && !element('compare').querySelector(`[value="${state.compare}"]`)) {
+    element('pictures').append(new Option(files.get(state.compare), state.compare));
+  }
+
+  for (const { id, ior } of presets) {
+    element('presets').querySelector(`[data-preset=${id}]`).setAttribute('aria-pressed', String(Math.abs(ior - state.ior) < 0.0005));
+  }
+  element('layer').max = state.layers - 1;
+  for (const [id, word] of Object.entries(sliders)) {
+    const input = element(id);
+    if (Number(input.value) !== state[id]) input.value = state[id];
+    element(`${id}-value`).textContent = word(state[id]);
+    input.setAttribute('aria-valuetext', word(state[id]));
+    const share = (Math.min(input.max, state[id]) - input.min) / (input.max - input.min || 1);
+    input.style.setProperty('--share', Math.max(0, share).toFixed(4));
+  }
+  for (const id of checks) element(id).checked = state[id];
+  for (const id of ['quality', 'environment', 'output', 'theme']) choose(id, state[id]);
+  element('technique').value = state.technique;
+  element('compare').value = state.compare;
+
+  const shown = techniques.filter(({ id }) => id === state.technique || id === state.compare);
+  element('summary').textContent = techniques.find(({ id }) => id === state.technique).summary;
+  for (const id of ['ior', 'layers', 'steps', 'events']) {
+    const isUsed = shown.some(({ uses }) => uses.includes(id)) || (id === 'layers' && state.output.startsWith('layer'));
+    element(id).disabled = !isUsed;
+    element(id).parentElement.classList.toggle('unused', !isUsed);
+  }
+  const isLayer = state.output.startsWith('layer');
+  element('layer').disabled = !isLayer;
+  element('layer').parentElement.classList.toggle('unused', !isLayer);
+  const legend = legends[state.output] ?? [];
+  element('legend').hidden = legend.length === 0;
+  element('legend').replaceChildren(...legend.map(([className, textContent]) => create('span', { className, textContent })));
+  if (state.theme === 'auto') document.documentElement.removeAttribute('data-theme');
+  else document.documentElement.dataset.theme = state.theme;
+}

@@ -1,0 +1,284 @@
+// The demo page: a store of what is shown, viewers that show it, controls that change it, an address that keeps it.
+import { VitrineViewer } from '../element/vitrine-viewer.js';
+import { buildControls } from './controls.js';
+import { PathOverlay } from './path.js';
+import { Store, defaults, extraModels, loadExtraModels, readState, reference, techniques, writeState } from './state.js';
+import { Wipe } from './wipe.js';
+
+const element = (id) => document.getElementById(id);
+await loadExtraModels();
+const { state: asked, problems } = readState(location.search);
+const store = new Store(asked);
+const files = new Map(); // names of the visitor's own files, by their object URLs
+const before = new Map(); // what an object URL took the place of: shown again should the file be bad
+let noteTimer = 0;
+
+/** A sentence that says what was done, and goes away. */
+function note(text) {
+  element('note').textContent = text;
+  clearTimeout(noteTimer);
+  noteTimer = setTimeout(() => (element('note').textContent = ''), 4000);
+}
+
+function showError(text) {
+  element('error').firstElementChild.textContent = text;
+  element('error').hidden = text === '';
+}
+
+// ------------------------------------------------------------------------------------------------- viewers
+
+/** What both viewers of a comparison have in common, as attributes; null: absent. */
+function attributesOf(state) {
+  return {
+    src: extraModels.get(state.model)?.url ?? state.model,
+    'environment-image': state.environment,
+    'skybox-image': state.backdrop ? '' : null,
+    ior: state.ior,
+    layers: state.layers,
+    steps: state.steps,
+    'max-events': state.events,
+    exposure: Number((2 ** state.exposure).toPrecision(6)),
+    output: state.output,
+    layer: state.layer,
+    quality: state.quality,
+    'camera-target': state.target,
+    'field-of-view': `${state.fov}deg`,
+  };
+}
+
+function setAttributes(viewer, attributes) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null) viewer.removeAttribute(name);
+    else if (viewer.getAttribute(name) !== String(value)) viewer.setAttribute(name, value);
+  }
+}
+
+const left = document.createElement('vitrine-viewer');
+let cameraOrbit = null, cameraTarget = null; // as the camera itself told last: these need not be set
+let placed = ''; // orbit and target as set last
+
+function orbitText() {
+  const { theta, phi, radius } = left.getCameraOrbit();
+  const degrees = (radians) => Number(((radians * 180) / Math.PI).toFixed(3));
+  return `${degrees(theta)}deg ${degrees(phi)}deg ${Number(radius.toPrecision(6))}m`;
+}
+
+function targetText() {
+  const target = left.getCameraTarget?.();
+  return target ? [target.x, target.y, target.z].map((value) => `${Number(value.toPrecision(6))}m`).join(' ') : store.state.target;
+}
+
+/**
+ * The distance at which the whole object is seen between gallery and panel, in % of the one that fills the stage.
+ * @param {number} fov degrees
+ */
+function roomyDistance(fov) {
+  const { width, height } = element('stage').getBoundingClientRect();
+  const style = getComputedStyle(element('stage'));
+  const inset = parseFloat(style.left) || 0, rise = parseFloat(style.top) || 0; // negative: beyond the window
+  const half = Math.tan((fov * Math.PI) / 360);
+  const across = half * ((width + 2 * inset) / height);
+  const up = half * (rise < 0 ? (height - 200) / height : 0.86);
+  const widest = half * Math.min(1.35, width / height); // of the objects worth a thought
+  const share = Math.min(1, up / half, across / widest);
+  const sine = (tangent) => Math.sin(Math.atan(tangent));
+  return Math.round((100 * sine(half)) / sine(Math.max(0.1, share) * half));
+}
+
+/** As the element takes it: the page's own idea of an automatic distance. */
+function orbitAttribute({ orbit, fov }) {
+  return orbit.endsWith('auto') ? orbit.replace(/auto$/, `${roomyDistance(fov)}%`) : orbit;
+}
+
+function showLeft(state) {
+  const attributes = { ...attributesOf(state), technique: state.technique, 'auto-rotate': state.rotate ? '' : null };
+  attributes.alt = `${files.get(state.model) ?? state.model}, in glass`;
+  const isPlaced = state.orbit !== cameraOrbit || state.target !== cameraTarget;
+  if (isPlaced) attributes['camera-orbit'] = orbitAttribute(state);
+  else delete attributes['camera-target'];
+  setAttributes(left, attributes);
+  if (!isPlaced || `${state.orbit} ${state.target}` === placed) return;
+  placed = `${state.orbit} ${state.target}`;
+  queueMicrotask(() => left.resetView()); // the attribute may be as it was, with the camera elsewhere
+}
+
+/** Where the camera is, for the viewer that follows; an automatic distance is the same for both. */
+function followedOrbit(state) {
+  if (!left.loaded) return orbitAttribute(state);
+  return state.orbit.endsWith('auto') ? orbitText().replace(/\S+$/, orbitAttribute(state).split(' ')[2]) : orbitText();
+}
+
+const wipe = new Wipe({ stage: element('stage'), right: element('right'), cut: element('cut'), divider: element('divider'), store });
+const path = new PathOverlay({ svg: element('path'), list: element('path-list'), hint: element('path-hint'), viewer: left, stage: element('stage') });
+
+function showComparison(state) {
+  const technique = techniques.find(({ id }) => id === state.compare);
+  if (technique) {
+    const orbit = followedOrbit(state);
+    wipe.showViewer((viewer) => setAttributes(viewer, {
+      ...attributesOf(state), technique: technique.id, 'camera-orbit': orbit, alt: `The same, ${technique.name}`,
+    }));
+  } else if (state.compare !== 'none') {
+    wipe.showPicture(state.compare === 'reference' ? reference.url : state.compare);
+  } else {
+    wipe.hide();
+  }
+  const leftName = techniques.find(({ id }) => id === state.technique);
+  const rightName = technique ? `${technique.name} ${technique.year}` : state.compare === 'reference' ? 'Ray-traced reference' : files.get(state.compare);
+  element('left-name').textContent = `${leftName.name} ${leftName.year}`;
+  const taken = pictureViews.get(state.compare);
+  const isElsewhere = taken !== undefined && Object.keys(taken).some((key) => taken[key] !== state[key]);
+  element('right-name').textContent = `${rightName ?? ''}${isElsewhere ? ', another view' : ''}`;
+}
+
+/** What a stored picture was taken of; Reset goes to its view while it is compared. */
+const pictureViews = new Map([['reference', reference.scene]]);
+
+function resetView() {
+  const { orbit, target, fov } = pictureViews.get(store.state.compare) ?? defaults;
+  store.set({ orbit, target, fov });
+}
+
+left.addEventListener('camera-change', ({ detail }) => {
+  path.cameraChanged();
+  if (detail?.source === 'user-interaction') {
+    [cameraOrbit, cameraTarget, placed] = [orbitText(), targetText(), ''];
+    store.set({ orbit: cameraOrbit, target: cameraTarget });
+  }
+  if (left.loaded) wipe.follow(followedOrbit(store.state), targetText(), store.state.quality);
+});
+left.addEventListener('load', () => {
+  wipe.follow(followedOrbit(store.state), targetText(), store.state.quality);
+  path.clear();
+});
+left.addEventListener('progress', ({ detail }) => {
+  element('progress').value = detail.totalProgress;
+  element('progress').classList.toggle('done', detail.totalProgress >= 1);
+});
+left.addEventListener('render-scale', ({ detail }) => {
+  const { pixelWidth, pixelHeight, layers, steps, renderedDpr, reportedDpr } = detail;
+  const share = Math.round((100 * renderedDpr) / Math.min(2, reportedDpr ?? window.devicePixelRatio));
+  element('size').textContent = `${pixelWidth} × ${pixelHeight} (${share} %) · ${layers} layers · ${steps} steps`;
+});
+left.addEventListener('frame', ({ detail }) => {
+  if (detail?.milliseconds > 0) element('time').textContent = `${detail.milliseconds.toFixed(detail.milliseconds < 100 ? 1 : 0)} ms`;
+});
+left.addEventListener('error', ({ detail }) => {
+  let sentence = detail.sourceError.message;
+  for (const [url, name] of files) {
+    const id = url.split('/').pop();
+    if (!sentence.includes(id)) continue;
+    sentence = sentence.replaceAll(id, name);
+    note('');
+    store.set(before.get(url) ?? {});
+  }
+  element('progress').classList.add('done');
+  showError(sentence);
+});
+
+// --------------------------------------------------------------------------------------------------- files
+
+function openFile(file, kind = /\.(hdr|png|jpe?g)$/i.test(file.name) ? 'environment' : 'model') {
+  const url = URL.createObjectURL(file);
+  files.set(url, file.name);
+  showError('');
+  const { state } = store;
+  if (kind === 'model') {
+    before.set(url, { model: state.model, orbit: state.orbit, target: state.target });
+    store.set({ model: url, orbit: defaults.orbit, target: defaults.target });
+  } else {
+    before.set(url, { environment: state.environment });
+    store.set({ environment: url });
+  }
+  note(`Opened ${file.name}`);
+}
+
+function comparePicture(blob, name) {
+  const url = URL.createObjectURL(blob);
+  files.set(url, name);
+  const { model, environment, ior, exposure, orbit, target, fov } = store.state;
+  pictureViews.set(url, { model, environment, ior, exposure, orbit, target, fov });
+  store.set({ compare: url });
+}
+
+function listenToDrops() {
+  const { body } = document;
+  let depth = 0; // dragenter and dragleave come for every child
+  const drag = (step) => (event) => {
+    event.preventDefault();
+    depth = step === 0 ? 0 : depth + step;
+    body.classList.toggle('dropping', depth > 0);
+  };
+  document.addEventListener('dragenter', drag(1));
+  document.addEventListener('dragleave', drag(-1));
+  document.addEventListener('dragover', (event) => event.preventDefault());
+  document.addEventListener('drop', (event) => {
+    drag(0)(event);
+    const [file] = event.dataTransfer.files;
+    if (file) openFile(file);
+  });
+}
+
+async function savePicture() {
+  try {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(await left.toBlob());
+    link.download = `vitrine-${(files.get(store.state.model) ?? store.state.model).replace(/\.\w+$/, '')}.png`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    note(`Saved ${link.download}`);
+  } catch (reason) {
+    showError(`The picture cannot be saved: ${reason.message}`);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------- address
+
+let addressTimer = 0;
+
+function keepAddress() {
+  clearTimeout(addressTimer);
+  addressTimer = 0;
+  history.replaceState(null, '', writeState(store.state));
+}
+
+async function copyLink() {
+  keepAddress();
+  const own = files.has(store.state.model) || files.has(store.state.environment);
+  try {
+    await navigator.clipboard.writeText(location.href);
+    note(own ? 'Link copied, without your own file' : 'Link copied');
+  } catch {
+    note('The link is in the address bar');
+  }
+}
+
+// --------------------------------------------------------------------------------------------------- start
+
+buildControls(store, {
+  files,
+  canShow: { output: 'output' in VitrineViewer.prototype, path: 'pathAt' in VitrineViewer.prototype },
+  openFile,
+  resetView,
+  savePicture,
+  copyLink,
+  trace: () => path.traceCentre(),
+  keepPicture: async () => comparePicture(await left.toBlob(), 'Kept picture'),
+  comparePicture: (file) => comparePicture(file, file.name),
+  chooseReference: () => store.set({ ...reference.scene, compare: 'reference' }),
+});
+store.subscribe((state, changed) => {
+  showLeft(state);
+  showComparison(state);
+  if (!['orbit', 'target', 'wipe', 'theme', 'compare'].some((key) => changed.has(key) && changed.size <= 2)) path.clear();
+  if (!addressTimer) addressTimer = setTimeout(keepAddress, 300); // browsers allow few changes a second
+});
+left.toggleAttribute('camera-controls', true);
+left.setAttribute('touch-action', 'none');
+element('left').append(left);
+listenToDrops();
+new ResizeObserver(() => {
+  if (store.state.orbit.endsWith('auto')) left.setAttribute('camera-orbit', orbitAttribute(store.state));
+}).observe(element('stage'));
+element('error').lastElementChild.addEventListener('click', () => showError(''));
+if (problems.length > 0) showError(problems.join('. '));

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Makes the demo's pictures anew: thumbnails of the shapes and the reference picture, all by the ray tracer.
+# Usage: web/demo/pictures/make.sh [VITRINE]
+set -eu
+vitrine=$(realpath "${1:-build/release/vitrine}")
+cd "$(dirname "$0")"
+draw() { "$vitrine" render "$1" -t reference --environment sky "${@:2}"; }
+for shape in sphere knot goblet bottle diamond; do
+  draw "$shape" --samples 16 --resolution 112,112 --fov 38 -o "$shape.png"
+done
+draw torus --samples 16 --resolution 112,112 --camera 0.9,2.3,2.6 --target 0,0,0 --fov 45 -o torus.png
+models=$(mktemp -d)
+trap 'rm -r "$models"' EXIT
+node ../models.mjs "$models" # the bunny needs `npm ci` in tests/
+draw "$models/bunny.glb" --samples 16 --resolution 112,112 --fov 38 -o bunny.png
+# camera-orbit "30deg 72deg 3.4m", camera-target "0m 0m 0m": see `reference` in state.js
+draw knot --samples 4 --resolution 480,480 --camera 1.616796,1.050658,2.800373 --target 0,0,0 --fov 45 -o reference.png

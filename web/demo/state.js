@@ -1,0 +1,115 @@
+// What the page shows, as one flat object, and the same as an address. Only what differs from the defaults is
+// written, so that a link stays short; every value read is checked, and a bad one is answered with a sentence.
+
+/** The ladder, as `vitrine list` has it; `uses` names the sliders that a technique heeds. */
+export const techniques = [
+  { id: 'kay-linear', name: 'Kay, linear', year: 1979, uses: ['layers'], summary: 'Surfaces blended back to front, the same transmittance everywhere. No refraction.' },
+  { id: 'kay-nonlinear', name: 'Kay, nonlinear', year: 1979, uses: ['layers'], summary: 'Less transparent where the surface turns away, with highlights. No refraction.' },
+  { id: 'kay-thickness', name: 'Kay, thickness', year: 1979, uses: ['layers', 'ior'], summary: 'Every surface is a thin wall that shifts what lies behind it.' },
+  { id: 'single', name: 'Single interface', year: 2003, uses: ['ior'], summary: 'One refraction at the first surface, then the surroundings. What most engines ship.' },
+  { id: 'wyman', name: 'Wyman', year: 2005, uses: ['ior'], summary: 'Two refractions, the distance between them guessed from two known ones.' },
+  { id: 'oliveira', name: 'Oliveira & Brauwers', year: 2007, uses: ['ior', 'steps'], summary: 'Two refractions, the back side found by a search in its depth.' },
+  { id: 'layered', name: 'Layered', year: 2014, uses: ['ior', 'layers', 'steps', 'events'], summary: 'Peeled layers searched for every refraction and total reflection.' },
+];
+
+export const shapes = ['knot', 'sphere', 'torus', 'goblet', 'bottle', 'diamond'];
+export const environments = ['studio', 'sky', 'checker'];
+export const qualities = ['auto', 'high', 'medium', 'low'];
+export const outputs = ['picture', 'analysis', 'layer-depth', 'layer-normal'];
+export const presets = [
+  { id: 'water', name: 'Water', ior: 1.333 },
+  { id: 'crown', name: 'Crown glass', ior: 1.523 },
+  { id: 'flint', name: 'Flint', ior: 1.62 },
+  { id: 'sapphire', name: 'Sapphire', ior: 1.77 },
+  { id: 'diamond', name: 'Diamond', ior: 2.417 },
+];
+
+/** The stored picture, and the scene it was traced from (pictures/make.sh). */
+export const reference = {
+  url: 'pictures/reference.png',
+  scene: { model: 'knot', environment: 'sky', backdrop: true, ior: 1.5, exposure: 0, fov: 45, orbit: '30deg 72deg 3.4m', target: '0m 0m 0m', rotate: false, output: 'picture' },
+};
+
+export const defaults = {
+  model: 'knot', environment: 'sky', backdrop: true,
+  technique: 'layered', compare: 'none', wipe: 50,
+  ior: 1.5, layers: 4, steps: 50, events: 8, quality: 'auto',
+  output: 'picture', layer: 0, exposure: 0, fov: 45, rotate: false,
+  orbit: 'auto auto auto', target: 'auto auto auto', theme: 'auto',
+};
+
+const ids = techniques.map(({ id }) => id);
+const oneOf = (values) => (text) => (values.includes(text) ? [text] : [null, `must be one of ${values.join(', ')}`]);
+const number = (min, max, whole = false) => (text) => {
+  const value = text.trim() === '' ? NaN : Number(text);
+  const fits = value >= min && value <= max && (!whole || Number.isInteger(value));
+  return fits ? [value] : [null, `must be a ${whole ? 'whole ' : ''}number from ${min} to ${max}`];
+};
+const flag = (text) => (/^[01]$/.test(text) ? [text === '1'] : [null, 'must be 0 or 1']);
+const words = (unit) => (text) => {
+  const word = String.raw`(auto|[-+]?\d*\.?\d+(e[-+]?\d+)?(${unit}))`;
+  return new RegExp(`^${word} ${word} ${word}$`).test(text) ? [text] : [null, `must be three of auto or a number with ${unit.replaceAll('|', ', ')}`];
+};
+const readers = {
+  model: (text) => oneOf([...shapes, ...extraModels.keys()])(text), environment: oneOf(environments), backdrop: flag,
+  technique: oneOf(ids), compare: oneOf(['none', 'reference', ...ids]), wipe: number(0, 100),
+  ior: number(1, 4), layers: number(1, 16, true), steps: number(1, 1000, true), events: number(1, 64, true), quality: oneOf(qualities),
+  output: oneOf(outputs), layer: number(0, 15, true), exposure: number(-10, 10), fov: number(1, 170), rotate: flag,
+  orbit: words('deg|rad|m|cm|mm|%'), target: words('m|cm|mm'), theme: oneOf(['auto', 'dark', 'light']),
+};
+
+/** Models beside the built-in shapes, by id: {title, url, picture}. See models.mjs. */
+export const extraModels = new Map();
+
+/** Fetches what the build made; a page built without goes without. */
+export async function loadExtraModels() {
+  const response = await fetch('assets/index.json').catch(() => null);
+  if (!response?.ok) return;
+  for (const { id, ...rest } of (await response.json()).models) extraModels.set(id, rest);
+}
+
+/** @param {string} search of the address @returns {{state: object, problems: string[]}} */
+export function readState(search) {
+  const state = { ...defaults }, problems = [];
+  for (const [key, text] of new URLSearchParams(search)) {
+    if (!Object.hasOwn(readers, key)) continue; // somebody else's
+    const [value, problem] = readers[key](text);
+    if (problem) problems.push(`${key} is '${text}'; it ${problem}`);
+    else state[key] = value;
+  }
+  return { state, problems };
+}
+
+/** @returns {string} what readState makes the same state from; files of the visitor's own have no address */
+export function writeState(state) {
+  const query = new URLSearchParams();
+  for (const [key, value] of Object.entries(defaults)) {
+    const now = state[key];
+    if (now === value) continue;
+    const text = typeof now === 'boolean' ? String(Number(now)) : String(now);
+    if (readers[key](text)[1] === undefined) query.set(key, text);
+  }
+  const text = query.toString();
+  return text === '' ? location.pathname : `?${text}`;
+}
+
+/** Holds a state; whoever subscribes hears of changes, with the names of what changed. */
+export class Store {
+  #listeners = [];
+
+  constructor(state) {
+    this.state = state;
+  }
+
+  set(patch) {
+    const changed = new Set(Object.keys(patch).filter((key) => patch[key] !== this.state[key]));
+    if (changed.size === 0) return;
+    this.state = { ...this.state, ...patch };
+    for (const listener of this.#listeners) listener(this.state, changed);
+  }
+
+  subscribe(listener) {
+    this.#listeners.push(listener);
+    listener(this.state, new Set(Object.keys(this.state)));
+  }
+}

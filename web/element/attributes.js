@@ -1,0 +1,123 @@
+// The one table of what can be written on the element. Observed attributes, properties with reflection, checks
+// and their sentences, and the documentation and types (scripts) all come from it.
+
+/**
+ * A row of the table.
+ * @typedef {object} Attribute
+ * @property {string} attribute as written in HTML
+ * @property {string} property as named in JavaScript
+ * @property {'string'|'number'|'boolean'|'enum'} type
+ * @property {string|number|boolean|null} default null: `defaultText` says what then holds
+ * @property {string} [defaultText]
+ * @property {number} [min] of a number
+ * @property {number} [max] of a number
+ * @property {boolean} [integer] of a number
+ * @property {string[]} [values] of an enum
+ * @property {string} description one sentence
+ */
+
+/** Names that the core knows by itself; anything else in `src` or `environment-image` is a URL. */
+export const shapes = ['sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond'];
+export const environments = ['studio', 'sky', 'checker'];
+
+const techniques = ['layered', 'oliveira', 'wyman', 'single', 'kay-thickness', 'kay-nonlinear', 'kay-linear'];
+
+/** What is shown, in vtOutput's order. */
+export const outputs = ['picture', 'analysis', 'layer-depth', 'layer-normal'];
+
+const string = (attribute, description, more) => ({ attribute, type: 'string', default: '', description, ...more });
+const boolean = (attribute, description) => ({ attribute, type: 'boolean', default: false, description });
+const oneOf = (attribute, values, description) => ({ attribute, type: 'enum', default: values[0], values, description });
+const number = (attribute, min, max, value, description, more) =>
+  ({ attribute, type: 'number', default: value, min, max, description, ...more });
+
+/** @type {Attribute[]} */
+export const attributes = [
+  string('src', `URL of a .glb or self-contained .gltf, or a built-in shape: ${shapes.join(', ')}.`),
+  string('alt', 'What the picture shows, for those who cannot see it.'),
+  string('poster', 'URL of a picture that stands until the first frame.'),
+  oneOf('loading', ['auto', 'lazy', 'eager'], 'eager: fetches at once; auto and lazy: when the element comes into view.'),
+  oneOf('reveal', ['auto', 'manual'], 'manual: the poster stays until dismissPoster() is called.'),
+  boolean('camera-controls', 'The view follows mouse, touch, pen and keys.'),
+  string('camera-orbit', 'Azimuth (0: from +Z), angle from +Y, and distance: deg or rad, then m, cm, mm or % of the distance that shows the whole object; each may be auto.', { default: 'auto auto auto' }),
+  string('camera-target', 'The point looked at, "x y z" in m, cm or mm; auto: the centre of the object.', { default: 'auto auto auto' }),
+  string('field-of-view', 'Vertical, deg or rad, 1 to 170 degrees; auto: 45deg.', { default: 'auto' }),
+  boolean('auto-rotate', 'Turns slowly while nobody touches it; not where the visitor prefers reduced motion.'),
+  string('environment-image', `What the glass refracts: URL of an equirectangular .hdr, .png or .jpg, or ${environments.join(', ')}.`, { default: 'studio' }),
+  string('skybox-image', 'When present, the environment is shown behind the glass; its value, if any, is the environment where environment-image is absent. Absent: the page shows behind the glass.'),
+  number('exposure', 1e-6, 1e6, 1, 'Factor on the light of the picture.'),
+  oneOf('touch-action', ['pan-y', 'pan-x', 'none'], 'What a finger does to the page rather than to the view.'),
+  boolean('disable-zoom', 'Wheel, pinch and + − keys do not change the distance.'),
+  number('ior', 1, 4, null, 'Index of refraction of the glass.', { defaultText: "the file's, else 1.5" }),
+  oneOf('technique', techniques, 'How the glass is computed; see `vitrine list`.'),
+  number('layers', 1, 16, 4, 'Depth layers peeled.', { integer: true }),
+  number('steps', 1, 1000, 50, 'Linear search steps a segment.', { integer: true }),
+  number('max-events', 1, 64, 8, 'Refractions and internal reflections of a path.', { integer: true }),
+  oneOf('output', outputs, 'picture; analysis: paths by colour (red two refractions, blue more, green total reflection, grey lost); or depth or normals of one layer.'),
+  number('layer', 0, 15, 0, 'Which layer is shown, 0 the nearest.', { integer: true }),
+  oneOf('quality', ['auto', 'high', 'medium', 'low'], 'auto: holds the frame time while moving and draws one full frame at rest; high, medium and low: always 1, 3/4 and 1/2 of the resolution.'),
+].map((row) => ({ ...row, property: row.attribute.replace(/-(.)/g, (_, letter) => letter.toUpperCase()) }));
+
+/**
+ * The value that an attribute's text stands for, and a sentence where it cannot stand as it is.
+ * @param {Attribute} row
+ * @param {string|null} text null: absent
+ * @returns {{value: string|number|boolean|null, problem: string}}
+ */
+export function readAttribute(row, text) {
+  if (row.type === 'boolean') return { value: text !== null, problem: '' };
+  if (text === null) return { value: row.default, problem: '' };
+  if (row.type === 'string') return { value: text, problem: '' };
+  if (row.type === 'enum') {
+    const fits = row.values.includes(text);
+    const problem = fits ? '' : `${row.attribute} is '${text}'; it must be one of ${row.values.join(', ')}`;
+    return { value: fits ? text : row.default, problem };
+  }
+  const given = text.trim() === '' ? NaN : Number(text);
+  const kind = row.integer ? 'a whole number' : 'a number';
+  const fits = Number.isFinite(given) && given >= row.min && given <= row.max && (!row.integer || Number.isInteger(given));
+  if (fits) return { value: given, problem: '' };
+  const near = Math.min(row.max, Math.max(row.min, row.integer ? Math.round(given) : given));
+  const value = Number.isFinite(given) ? near : row.default;
+  const used = value === null ? row.defaultText : value;
+  return { value, problem: `${row.attribute} is '${text}'; it must be ${kind} from ${row.min} to ${row.max}; ${used} is used` };
+}
+
+/** All values of an element, by property, and the sentences about those that cannot stand. */
+export function readAttributes(element) {
+  const values = {}, problems = [];
+  for (const row of attributes) {
+    const { value, problem } = readAttribute(row, element.getAttribute(row.attribute));
+    values[row.property] = value;
+    if (problem) problems.push(problem);
+  }
+  return { values, problems };
+}
+
+/** Gives a class the properties of the table, each reflected as its attribute. */
+export function defineProperties(prototype) {
+  for (const row of attributes) {
+    Object.defineProperty(prototype, row.property, {
+      configurable: true,
+      enumerable: true,
+      get() {
+        return readAttribute(row, this.getAttribute(row.attribute)).value;
+      },
+      set(value) {
+        if (row.type === 'boolean') this.toggleAttribute(row.attribute, Boolean(value));
+        else if (value === null || value === undefined) this.removeAttribute(row.attribute);
+        else this.setAttribute(row.attribute, value);
+      },
+    });
+  }
+}
+
+/** What a page set before the class was there becomes attributes. */
+export function adoptProperties(element) {
+  for (const { property } of attributes) {
+    if (!Object.hasOwn(element, property)) continue;
+    const value = element[property];
+    delete element[property];
+    element[property] = value;
+  }
+}

@@ -1,0 +1,146 @@
+// The compiled module, loaded once a page, and one Viewer (web/viewer.c) for each canvas.
+import createVitrine from '../vitrine-core.js';
+
+/** Browsers keep about 16 contexts; some are left to the rest of the page. */
+const mostContexts = 12;
+
+const viewers = new Set(); // those with a context
+let loading = null;
+
+/**
+ * The module. A load that failed is tried again by the next call.
+ * @param {{locateFile?: (name: string) => string, wasmBinary?: BufferSource}} places where the wasm is, if not beside this
+ */
+export function loadCore({ locateFile, wasmBinary } = {}) {
+  const wasm = () => new URL('../vitrine-core.wasm', import.meta.url).href;
+  loading ??= createVitrine({ locateFile: (name) => locateFile?.(name) ?? wasm(), wasmBinary }).catch((reason) => {
+    loading = null;
+    throw reason;
+  });
+  return loading;
+}
+
+/** What is held at present, for measurements. */
+export async function coreStatistics() {
+  const core = await loading;
+  return { contexts: viewers.size, heapBytes: core?.HEAPU8.length ?? 0 };
+}
+
+/** A context, the renderer in it, and the calls of web/viewer.c. */
+export class Viewer {
+  #core;
+  #canvas;
+  #context; // Emscripten's handle
+  #viewer = 0; // address of the vtViewer; 0 while the context is lost
+
+  /**
+   * @param core from loadCore
+   * @param {HTMLCanvasElement} canvas without a context
+   * @param {() => boolean} onCrowded asked when contexts run short; true if it destroyed this viewer
+   * @throws {Error} where the browser has no WebGL 2 or the renderer cannot start
+   */
+  constructor(core, canvas, onCrowded) {
+    this.onCrowded = onCrowded;
+    for (const other of [...viewers]) {
+      if (viewers.size < mostContexts) break;
+      other.onCrowded();
+    }
+    this.#core = core;
+    this.#canvas = canvas;
+    this.#context = core.GL.createContext(canvas, {
+      majorVersion: 2,
+      alpha: true,
+      premultipliedAlpha: true, // the picture's alpha is 0 with black, or 1
+      antialias: false,
+      depth: false,
+      stencil: false,
+      preserveDrawingBuffer: false,
+      powerPreference: 'high-performance',
+    });
+    if (!this.#context) {
+      throw new Error('This browser opens no WebGL 2 context; turn hardware acceleration on or try another browser');
+    }
+    viewers.add(this);
+    try {
+      this.start();
+    } catch (reason) {
+      this.destroy();
+      throw reason;
+    }
+  }
+
+  get gl() {
+    return this.#core.GL.getContext(this.#context).GLctx;
+  }
+
+  get isLost() {
+    return this.#viewer === 0;
+  }
+
+  /** Compiles the shaders, at first and after the context was restored. */
+  start() {
+    this.#core.GL.makeContextCurrent(this.#context);
+    this.#viewer = this.#core.ccall('vtViewer_Create', 'number', ['number', 'number'], [1, 1]);
+    const problem = this.#viewer === 0 ? 'out of memory' : this.problem();
+    if (problem) throw new Error(problem);
+  }
+
+  /** The context is lost: so is everything in it. */
+  stop() {
+    this.#core.GL.makeContextCurrent(this.#context);
+    if (this.#viewer !== 0) this.#core.ccall('vtViewer_Destroy', null, ['number'], [this.#viewer]);
+    this.#viewer = 0;
+  }
+
+  /** Gives everything back; the canvas cannot be used again. */
+  destroy() {
+    const { gl } = this;
+    this.stop();
+    viewers.delete(this);
+    this.#core.GL.deleteContext(this.#context);
+    this.#core.GL.makeContextCurrent(0);
+    if (!gl.isContextLost()) gl.getExtension('WEBGL_lose_context')?.loseContext(); // now, not when garbage is collected
+    this.#canvas.width = this.#canvas.height = 0;
+  }
+
+  call(name, ...values) {
+    this.#core.GL.makeContextCurrent(this.#context);
+    const types = values.map((value) => (typeof value === 'string' ? 'string' : 'number'));
+    return this.#core.ccall(`vtViewer_${name}`, 'number', ['number', ...types], [this.#viewer, ...values]);
+  }
+
+  /** A call that answers with a sentence, or nothing; returns that sentence or ''. */
+  attempt(name, ...values) {
+    return this.#core.UTF8ToString(this.call(name, ...values));
+  }
+
+  /** As attempt, for a call that takes the contents of a file over. */
+  attemptBytes(name, bytes, fileName) {
+    const place = this.#core._malloc(bytes.length || 1);
+    if (place === 0) return `${fileName}: too large for the memory of this page`;
+    this.#core.HEAPU8.set(bytes, place);
+    return this.attempt(name, place, bytes.length, fileName);
+  }
+
+  problem() {
+    return this.#core.UTF8ToString(this.call('Error'));
+  }
+
+  info() {
+    return JSON.parse(this.#core.UTF8ToString(this.call('Info')));
+  }
+
+  /** The exact path through a pixel (vtViewer_Path); throws the sentence where it fails. */
+  path(x, y) {
+    const place = this.call('Path', x, y);
+    if (place === 0) throw new Error(this.problem());
+    return JSON.parse(this.#core.UTF8ToString(place));
+  }
+
+  /** The present view and settings at that size, RGBA, top row first; throws the sentence where it fails. */
+  image(width, height) {
+    const place = this.call('Image', width, height);
+    if (place === 0) throw new Error(this.problem());
+    return new ImageData(new Uint8ClampedArray(this.#core.HEAPU8.slice(place, place + 4 * width * height)), width, height);
+  }
+}

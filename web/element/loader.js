@@ -1,0 +1,58 @@
+// The files of one element: fetched side by side, shown environment first, dropped where the wish has changed.
+import { Progress, builtIn, fetchSource } from './loading.js';
+
+export class Loader {
+  /** Of the model that is loading, or came last. @type {Progress|null} */
+  progress = null;
+  #told;
+  #abort = null;
+
+  /**
+   * @param {object} told
+   * @param {(value: number) => void} told.progress 0 to 1
+   * @param {(kind: 'model'|'environment', source: import('./loading.js').Source) => void} told.loaded
+   * @param {(kind: 'model'|'environment', reason: Error) => void} told.failed
+   */
+  constructor(told) {
+    this.#told = told;
+  }
+
+  abort() {
+    this.#abort?.abort();
+  }
+
+  /**
+   * Loads what differs from what is held, in place of any load before.
+   * @param {{environment: string, model: string}} urls '': none
+   * @param {{environment: object|null, model: object|null}} held sources
+   * @returns {Promise<boolean>} false where another load has begun, or this was aborted
+   */
+  async load(urls, held) {
+    this.abort();
+    const { signal } = (this.#abort = new AbortController());
+    const isNew = (kind) => urls[kind] !== '' && held[kind]?.url !== urls[kind];
+    if (isNew('model')) this.progress = new Progress(this.#told.progress);
+    const kinds = ['environment', 'model'].filter(isNew); // the first frame shall have the environment
+    const fetches = kinds.map((kind) => this.#fetch(kind, urls[kind], signal));
+    for (const [i, kind] of kinds.entries()) {
+      const source = await fetches[i];
+      if (signal.aborted) return false;
+      if (source !== null) this.#told.loaded(kind, source);
+    }
+    return !signal.aborted;
+  }
+
+  /** Null where it failed. */
+  async #fetch(kind, url, signal) {
+    const { progress } = this;
+    try {
+      progress?.expect(kind);
+      const known = builtIn(kind, url);
+      if (known) progress?.bytes(kind, 1, 1);
+      return known ?? (await fetchSource(url, signal, (received, total) => progress?.bytes(kind, received, total)));
+    } catch (reason) {
+      if (!signal.aborted) this.#told.failed(kind, reason);
+      return null;
+    }
+  }
+}

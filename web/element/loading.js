@@ -1,0 +1,90 @@
+// Files over the network, with progress from the bytes that have come.
+import { environments, shapes } from './attributes.js';
+
+/**
+ * What a model or an environment is made from; kept, so that a restored context can have it again.
+ * @typedef {object} Source
+ * @property {string} url as in the attribute; a built-in name where bytes is null
+ * @property {string} name for sentences
+ * @property {Uint8Array|null} bytes
+ */
+
+/** The built-in of that name, or null. @returns {Source|null} */
+export function builtIn(kind, url) {
+  const names = kind === 'model' ? shapes : environments;
+  return names.includes(url) ? { url, name: url, bytes: null } : null;
+}
+
+/**
+ * @param {string} url relative to the page
+ * @param {AbortSignal} signal
+ * @param {(received: number, total: number) => void} onBytes total is 0 where the server does not say
+ * @returns {Promise<Source>} @throws {Error} a sentence
+ */
+export async function fetchSource(url, signal, onBytes) {
+  const { href, pathname } = new URL(url, document.baseURI);
+  const name = pathname.split('/').pop() || url;
+  const response = await fetch(href, { signal }).catch((reason) => {
+    if (signal.aborted) throw reason;
+    throw new Error(`${name}: cannot be fetched: ${reason.message}`, { cause: reason });
+  });
+  if (!response.ok) {
+    const answer = `the server answered ${response.status} ${response.statusText}`.trim();
+    throw new Error(/[./]/.test(url) ? `${name}: ${answer}` : `${name}: neither a built-in name nor a file: ${answer}`);
+  }
+  // A compressed transfer counts other bytes than its length.
+  const plain = !response.headers.get('content-encoding');
+  const total = plain ? Number(response.headers.get('content-length')) || 0 : 0;
+  const chunks = [];
+  let received = 0;
+  try {
+    for (const reader = response.body.getReader(); ;) {
+      const { done, value } = await reader.read();
+      if (done) break;
+      chunks.push(value);
+      onBytes((received += value.length), total);
+    }
+  } catch (reason) {
+    if (signal.aborted) throw reason;
+    throw new Error(`${name}: broke off after ${received} bytes: ${reason.message}`, { cause: reason });
+  }
+  const bytes = new Uint8Array(received);
+  let place = 0;
+  for (const chunk of chunks) {
+    bytes.set(chunk, place);
+    place += chunk.length;
+  }
+  return { url, name, bytes };
+}
+
+/** One number from 0 to 1 for all files of a load; it never goes back. */
+export class Progress {
+  static ofBytes = 0.9; // the rest is decoding and the first frame
+  #parts = new Map();
+  #value = 0;
+  #tell;
+
+  /** @param {(value: number) => void} tell called at each change */
+  constructor(tell) {
+    this.#tell = tell;
+    tell(0);
+  }
+
+  expect(key) {
+    this.#parts.set(key, { received: 0, total: 0 });
+  }
+
+  bytes(key, received, total) {
+    this.#parts.set(key, { received, total });
+    let sum = 0, all = 0;
+    for (const part of this.#parts.values()) {
+      sum += part.received;
+      all += part.total || Math.max(2 * part.received, 1e5); // unknown: half of it is assumed to be here
+    }
+    this.advance(Progress.ofBytes * Math.min(1, sum / all));
+  }
+
+  advance(value) {
+    if (value > this.#value) this.#tell((this.#value = value));
+  }
+}

@@ -1,0 +1,315 @@
+// A canvas with its viewer: what it shows, when it draws, and how well. Nothing is drawn unless something
+// changed and the canvas can be seen.
+import { outputs } from './attributes.js';
+import { builtIn } from './loading.js';
+import { Viewer } from './core.js';
+import { Orbit } from './orbit.js';
+import { Quality, levels } from './quality.js';
+
+const largestDpr = 2; // canvas pixels per CSS pixel
+const stillAfter = 250; // milliseconds without motion until the full frame
+
+/**
+ * @typedef {object} Told what a stage tells its element
+ * @property {(kind: 'model'|'environment') => void} shown
+ * @property {(kind: 'model'|'environment', sentence: string) => void} rejected what was shown before stays
+ * @property {(milliseconds: number) => void} frame is on the screen
+ * @property {(detail: object) => void} scaled of the render-scale event
+ * @property {() => void} turned by itself
+ * @property {() => void} lost the context
+ * @property {() => void} restored
+ * @property {(sentence: string) => void} failed to draw
+ * @property {(sentence: string) => void} unsupported
+ */
+
+export class Stage {
+  orbit = new Orbit();
+  quality = new Quality();
+  /** Of SetGlass, for a full frame; ior null: the file's. */
+  glass = { technique: 'layered', ior: null, layers: 4, steps: 50, maxEvents: 8, output: 'picture', layer: 0, exposure: 0, transparent: true };
+  scene = { model: null, environment: builtIn('environment', 'studio') };
+
+  #host;
+  #told;
+  #core = null;
+  #viewer = null;
+  #pending = {}; // sources that no viewer was there for
+  #fileIor = 1.5;
+  #visible = false;
+  #spin = 0;
+  #lastTime = 0;
+  #dirty = false;
+  #frame = 0; // of requestAnimationFrame
+  #busy = null; // the fence of the frame on the GPU
+  #still = 0; // timer
+  #framedFor = ''; // aspect and field of view
+  #drawn = {}; // detail of the last render-scale
+
+  /** @param {HTMLElement} host holds a canvas @param {Told} told */
+  constructor(host, told) {
+    this.#host = host;
+    this.#told = told;
+  }
+
+  set core(core) {
+    this.#core = core;
+    this.#openIfSeen();
+  }
+
+  get isVisible() {
+    return this.#visible;
+  }
+
+  set isVisible(visible) {
+    this.#visible = visible;
+    if (!visible && this.#viewer?.isLost) this.close(); // it gets a new one
+    this.#openIfSeen();
+    this.#schedule();
+  }
+
+  /** Radians a second about +Y. */
+  set spin(speed) {
+    this.#spin = speed;
+    this.#lastTime = 0;
+    if (speed === 0) this.#awaitStill();
+    this.#schedule();
+  }
+
+  /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source} source */
+  show(kind, source) {
+    if (this.#viewer === null || this.#viewer.isLost) this.#pending[kind] = source;
+    else this.#upload(kind, source);
+  }
+
+  invalidate() {
+    this.#dirty = true;
+    this.#schedule();
+  }
+
+  /** The view moved: less is drawn until it rests. */
+  moved() {
+    this.quality.moving = true;
+    this.#awaitStill();
+    this.invalidate();
+  }
+
+  /** Everything on the GPU is given back; sources stay for the next opening. */
+  close() {
+    cancelAnimationFrame(this.#frame);
+    clearTimeout(this.#still);
+    this.#frame = 0;
+    this.#busy = null;
+    if (this.#viewer === null) return;
+    this.#viewer.destroy();
+    this.#viewer = null;
+    const canvas = this.#host.querySelector('canvas');
+    canvas.replaceWith(canvas.cloneNode()); // a canvas whose context was given up gets no other
+  }
+
+  /** The full picture. @returns {ImageData} @throws {Error} a sentence */
+  image() {
+    if (this.#viewer === null) this.#open();
+    if (this.scene.model === null || this.#viewer === null || this.#viewer.isLost) throw new Error('nothing is shown yet');
+    const [width, height] = this.#size(1);
+    this.#frameObject();
+    const problem = this.#applyGlass(this.glass) || this.#applyView();
+    if (problem) throw new Error(problem);
+    return this.#viewer.image(width, height);
+  }
+
+  /**
+   * The exact path through a point of the canvas, x and y as shares of its sides from the top left; null where
+   * nothing is shown. See vtViewer_Path.
+   */
+  path(x, y) {
+    if (this.#viewer === null || this.#viewer.isLost || this.scene.model === null) return null;
+    const { width, height } = this.#host.querySelector('canvas');
+    return this.#viewer.path(x * width, y * height);
+  }
+
+  #openIfSeen() {
+    if (this.#visible && this.#viewer === null) this.#open();
+  }
+
+  #open() {
+    if (this.#core === null) return;
+    const canvas = this.#host.querySelector('canvas');
+    const onCrowded = () => {
+      if (!this.#visible) this.close();
+    };
+    try {
+      this.#viewer = new Viewer(this.#core, canvas, onCrowded);
+    } catch (reason) {
+      canvas.replaceWith(canvas.cloneNode());
+      this.#core = null; // not tried again
+      this.#told.unsupported(reason.message);
+      return;
+    }
+    canvas.addEventListener('webglcontextlost', (event) => {
+      if (canvas.parentNode !== this.#host) return; // given up
+      event.preventDefault();
+      this.#busy = null;
+      this.#viewer.stop();
+      this.#told.lost();
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      if (canvas.parentNode !== this.#host) return;
+      try {
+        this.#viewer.start();
+      } catch (reason) {
+        this.#told.failed(reason.message);
+        return;
+      }
+      this.#fill();
+      this.#told.restored();
+    });
+    this.#fill();
+    this.#told.restored(); // in case the one before was lost
+  }
+
+  /** Gives a new viewer what was shown, and what came in the meantime. */
+  #fill() {
+    this.#framedFor = '';
+    this.#drawn = {};
+    const { scene } = this;
+    const pending = this.#pending;
+    this.#pending = {};
+    for (const kind of ['environment', 'model']) {
+      if (scene[kind] !== null) this.#upload(kind, scene[kind], false);
+      if (pending[kind] !== undefined) this.#upload(kind, pending[kind]);
+    }
+  }
+
+  #upload(kind, source, isNew = true) {
+    const viewer = this.#viewer;
+    const oldIor = this.#fileIor;
+    this.#fileIor = 1.5; // unless the file says otherwise
+    const [openName, setName] = kind === 'model' ? ['OpenModel', 'SetShape'] : ['OpenEnvironment', 'SetEnvironment'];
+    if (kind === 'model') this.#applyGlass({ ...this.glass, technique: 'single', ior: 1.5, output: 'picture' });
+    const problem = source.bytes === null
+      ? viewer.attempt(setName, source.name)
+      : viewer.attemptBytes(openName, source.bytes, source.name);
+    const isModel = kind === 'model' && !problem;
+    this.#fileIor = isModel ? viewer.info().ior : oldIor;
+    if (isModel) this.#framedFor = '';
+    if (problem) {
+      this.#told.rejected(kind, problem);
+      return;
+    }
+    this.scene[kind] = source;
+    this.invalidate();
+    if (isNew) this.#told.shown(kind);
+  }
+
+  #applyGlass(glass) {
+    const { technique, ior, layers, steps, maxEvents, output, layer, exposure, transparent } = glass;
+    const shown = Math.min(layer, layers - 1); // a reduced frame may have fewer
+    return this.#viewer.attempt('SetGlass', technique, ior ?? this.#fileIor, layers, steps, maxEvents, outputs.indexOf(output),
+      shown, exposure, Number(transparent));
+  }
+
+  #applyView() {
+    const { eye, target, fieldOfView } = this.orbit;
+    return this.#viewer.attempt('SetView', ...eye, ...target, fieldOfView);
+  }
+
+  /** Finds the view that shows the whole object, where the object or the shape of the picture is new. */
+  #frameObject() {
+    const [width, height] = this.#size(1);
+    const { fieldOfView } = this.orbit;
+    const key = `${width / height} ${fieldOfView}`;
+    if (key === this.#framedFor) return;
+    this.#framedFor = key;
+    this.#viewer.attempt('SetView', 0, 0, 1, 0, 0, 0, fieldOfView);
+    this.#viewer.call('ResetView', width / height);
+    const { eye, target } = this.#viewer.info();
+    this.orbit.frame(eye, target);
+  }
+
+  get #dpr() {
+    return Math.min(window.devicePixelRatio, largestDpr);
+  }
+
+  #size(scale) {
+    const { clientWidth, clientHeight } = this.#host;
+    return [clientWidth, clientHeight].map((side) => Math.max(1, Math.round(side * this.#dpr * scale)));
+  }
+
+  #awaitStill() {
+    clearTimeout(this.#still);
+    this.#still = setTimeout(() => {
+      if (this.#spin !== 0) return;
+      const before = this.quality.level;
+      this.quality.moving = false;
+      if (this.quality.level !== before) this.invalidate();
+    }, stillAfter);
+  }
+
+  #schedule() {
+    const isWanted = this.#dirty || this.#spin !== 0;
+    const canDraw = this.#viewer !== null && !this.#viewer.isLost && this.#visible && this.scene.model !== null;
+    if (!isWanted || !canDraw || this.#busy !== null || this.#frame !== 0) return;
+    this.#frame = requestAnimationFrame((time) => {
+      this.#frame = 0;
+      this.#draw(time);
+    });
+  }
+
+  #draw(time) {
+    if (this.#viewer === null || this.#viewer.isLost) return;
+    if (this.#spin !== 0) {
+      const seconds = this.#lastTime === 0 ? 0 : Math.min(0.2, (time - this.#lastTime) / 1000);
+      this.#lastTime = time;
+      this.orbit.turn(this.#spin * seconds, 0);
+      this.quality.moving = true;
+      this.#dirty = true;
+      this.#told.turned();
+    }
+    this.#dirty = false;
+    const canvas = this.#host.querySelector('canvas');
+    const { quality } = this;
+    const glass = quality.reduce(this.glass);
+    const [width, height] = this.#size(quality.scale);
+    this.#frameObject();
+    let problem = this.#applyGlass(glass) || this.#applyView();
+    if (canvas.width !== width || canvas.height !== height || this.#drawn.pixelWidth === undefined) {
+      [canvas.width, canvas.height] = [width, height];
+      problem ||= this.#viewer.attempt('Resize', width, height);
+    }
+    const start = performance.now();
+    if (this.#viewer.call('Tick') < 0) problem ||= this.#viewer.problem();
+    if (problem) this.#told.failed(problem);
+    this.#tellScale({ pixelWidth: width, pixelHeight: height, layers: glass.layers, steps: glass.steps });
+    this.#awaitFrame(start, quality.moving);
+  }
+
+  #tellScale(size) {
+    if (Object.keys(size).every((key) => this.#drawn[key] === size[key])) return;
+    this.#drawn = size;
+    const { reason, scale } = this.quality;
+    const minimumDpr = this.#dpr * levels.at(-1).scale;
+    this.#told.scaled({ reportedDpr: window.devicePixelRatio, renderedDpr: this.#dpr * scale, minimumDpr, ...size, reason });
+  }
+
+  /** Waits for the GPU without holding the page up; the next frame starts after it. */
+  #awaitFrame(start, moving) {
+    const { gl } = this.#viewer;
+    const fence = (this.#busy = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0));
+    if (fence === null) return; // lost
+    gl.flush();
+    const poll = () => {
+      if (this.#busy !== fence) return; // closed or lost
+      if (gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.UNSIGNALED) {
+        setTimeout(poll, 1);
+        return;
+      }
+      gl.deleteSync(fence);
+      this.#busy = null;
+      const milliseconds = performance.now() - start;
+      if (moving) this.quality.note(milliseconds);
+      this.#told.frame(milliseconds);
+      this.#schedule();
+    };
+    setTimeout(poll, 1);
+  }
+}

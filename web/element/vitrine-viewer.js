@@ -1,0 +1,380 @@
+// <vitrine-viewer>: glass in any page. Attributes: attributes.js; events, slots, parts and variables: docs/web.md.
+import { Access } from './access.js';
+import { adoptProperties, attributes, defineProperties, readAttributes } from './attributes.js';
+import { listenToControls } from './controls.js';
+import { coreStatistics, loadCore } from './core.js';
+import { Loader } from './loader.js';
+import { parseFieldOfView, parseOrbit, parseTarget } from './orbit.js';
+import { Stage } from './stage.js';
+import { createShadow } from './template.js';
+
+const spinSpeed = Math.PI / 32; // radians a second, as model-viewer's
+const spinPause = 3000; // milliseconds after the last touch
+
+/**
+ * @fires load {url}: the model is in the picture
+ * @fires progress {totalProgress}: 0 to 1, from bytes
+ * @fires error {type: 'loadfailure'|'webglcontextlost'|'unsupported'|'invalid', sourceError}
+ * @fires camera-change {source: 'user-interaction'|'none'}
+ * @fires frame {milliseconds}: one is on the screen, and how long it took
+ * @fires render-scale {reportedDpr, renderedDpr, minimumDpr, pixelWidth, pixelHeight, layers, steps, reason}
+ */
+export class VitrineViewer extends HTMLElement {
+  static observedAttributes = attributes.map(({ attribute }) => attribute);
+
+  /** Where the wasm is, if not beside this module; set before the first element. @type {((name: string) => string)|undefined} */
+  static locateFile;
+  /** The wasm itself, for a bundle. @type {BufferSource|undefined} */
+  static wasmBinary;
+  /** Contexts and bytes held by all elements, for measurements. */
+  static statistics = coreStatistics;
+
+  #shadow = createShadow(this);
+  #stage = new Stage(this.#shadow.view, this.#tell());
+  #access;
+  #values = {};
+  #messages = new Map(); // by cause
+  #loader = new Loader({
+    progress: (value) => this.#showProgress(value),
+    loaded: (kind, source) => this.#stage.show(kind, source),
+    failed: (kind, reason) => this.#fail('loadfailure', kind, reason.message, reason),
+  });
+  #isLoaded = false;
+  #hasFrame = false;
+  #isDismissed = false;
+  #wasSeen = false;
+  #isOpen = false; // observers are on
+  #updating = null; // attributes that wait for the end of the script
+  #timers = {};
+  #observers = [];
+  #reduced = matchMedia('(prefers-reduced-motion: reduce)');
+
+  constructor() {
+    super();
+    const { orbit } = this.#stage;
+    const act = (change) => (...numbers) => {
+      change(...numbers);
+      this.#moved('user-interaction');
+    };
+    listenToControls(this.#shadow.view, {
+      isActive: () => this.cameraControls,
+      canZoom: () => !this.disableZoom,
+      turn: act((right, up) => orbit.turn(right, up)),
+      pan: act((right, up) => orbit.pan(right, up)),
+      zoom: act((factor) => orbit.zoom(factor)),
+      reset: act(() => this.#placeCamera()),
+    });
+    this.#access = new Access(this.#shadow, orbit, () => this.#moved('user-interaction'));
+  }
+
+  // ------------------------------------------------------------------------------------------------- for pages
+
+  /** The model of the present src is in the picture. */
+  get loaded() {
+    return this.#isLoaded;
+  }
+
+  /** The poster is gone and the model can be seen. */
+  get modelIsVisible() {
+    return this.#hasFrame && this.#shadow.poster.hidden;
+  }
+
+  /** Removes the poster where reveal is manual. */
+  dismissPoster() {
+    this.#isDismissed = true;
+    this.#showPoster();
+  }
+
+  /** @returns {{theta: number, phi: number, radius: number, toString: () => string}} radians and metres */
+  getCameraOrbit() {
+    const { orbit } = this.#stage;
+    const text = String(orbit);
+    return { theta: orbit.theta, phi: orbit.phi, radius: orbit.distance, toString: () => text };
+  }
+
+  /** @returns {{x: number, y: number, z: number}} the point looked at, world */
+  getCameraTarget() {
+    const [x, y, z] = this.#stage.orbit.target;
+    return { x, y, z };
+  }
+
+  /** World points in client coordinates, as they are seen now. @param {number[][]} points @returns {number[][]} */
+  project(points) {
+    const { left, top, width, height } = this.#shadow.view.getBoundingClientRect();
+    return points.map((point) => {
+      const [x, y] = this.#stage.orbit.project(point, width / height);
+      return [left + (0.5 + 0.5 * x) * width, top + (0.5 - 0.5 * y) * height];
+    });
+  }
+
+  /**
+   * The exact path of light through a point of the page, traced on the CPU; null where no glass is.
+   * `points` has one more than `events`: where the light has gone after the last.
+   * @returns {{events: {kind: 'refraction'|'reflection', in: number, out: number}[], points: number[][], screen: number[][], exited: boolean}|null}
+   */
+  pathAt(clientX, clientY) {
+    const { left, top, width, height } = this.#shadow.view.getBoundingClientRect();
+    const path = this.#stage.path((clientX - left) / width, (clientY - top) / height);
+    if (path === null || path.events.length === 0) return null;
+    const points = path.events.map(({ position }) => position);
+    const { distance } = this.#stage.orbit;
+    points.push(points.at(-1).map((value, i) => value + 0.3 * distance * path.direction[i]));
+    const events = path.events.map((event) => ({ kind: event.kind, in: event.in, out: event.out }));
+    return { events, points, screen: this.project(points), exited: path.exited };
+  }
+
+  /** Back to camera-orbit, camera-target and field-of-view. */
+  resetView() {
+    this.#placeCamera();
+    this.#moved('none');
+  }
+
+  /** The full picture as a file. @param {{mimeType?: string, qualityArgument?: number}} options @returns {Promise<Blob>} */
+  toBlob({ mimeType = 'image/png', qualityArgument } = {}) {
+    const canvas = this.#paint();
+    return new Promise((resolve, reject) => {
+      canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser gave no file'))), mimeType, qualityArgument);
+    });
+  }
+
+  /** The full picture as a data: URL. */
+  toDataURL(type = 'image/png', qualityArgument) {
+    return this.#paint().toDataURL(type, qualityArgument);
+  }
+
+  #paint() {
+    const image = this.#stage.image();
+    const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
+    canvas.getContext('2d').putImageData(image, 0, 0);
+    return canvas;
+  }
+
+  // -------------------------------------------------------------------------------------------------- life
+
+  connectedCallback() {
+    adoptProperties(this);
+    clearTimeout(this.#timers.removal);
+    if (this.#isOpen) return; // moved
+    this.#isOpen = true;
+    const seen = new IntersectionObserver((entries) => this.#see(entries.at(-1).isIntersecting));
+    const size = new ResizeObserver(() => this.#stage.invalidate());
+    seen.observe(this);
+    size.observe(this);
+    const motion = () => this.#updateSpin();
+    this.#reduced.addEventListener('change', motion);
+    this.#observers = [seen, size, { disconnect: () => this.#reduced.removeEventListener('change', motion) }];
+    this.#watchPixelRatio();
+    this.#update('src');
+  }
+
+  disconnectedCallback() {
+    // Put back within this task it goes on as it was.
+    this.#timers.removal = setTimeout(() => !this.isConnected && this.#close());
+  }
+
+  attributeChangedCallback(name, before, after) {
+    if (before !== after) this.#update(name);
+  }
+
+  #close() {
+    this.#isOpen = this.#wasSeen = this.#hasFrame = false;
+    for (const observer of this.#observers) observer.disconnect();
+    for (const timer of Object.values(this.#timers)) clearTimeout(timer);
+    this.#timers = {};
+    this.#access.stop();
+    this.#loader.abort();
+    this.#stage.isVisible = false;
+    this.#stage.close();
+    this.#showPoster();
+  }
+
+  #watchPixelRatio() {
+    const query = matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const changed = () => {
+      this.#stage.invalidate();
+      this.#watchPixelRatio();
+    };
+    query.addEventListener('change', changed, { once: true });
+    this.#observers[3] = { disconnect: () => query.removeEventListener('change', changed) };
+  }
+
+  #see(isSeen) {
+    this.#stage.isVisible = isSeen;
+    if (!isSeen || this.#wasSeen) return;
+    this.#wasSeen = true;
+    this.#load();
+  }
+
+  // ---------------------------------------------------------------------------------------------- attributes
+
+  /** Several changes of one script are taken together. */
+  #update(name) {
+    if (this.#updating === null) {
+      this.#updating = new Set();
+      queueMicrotask(() => {
+        const changed = this.#updating;
+        this.#updating = null;
+        this.#apply(changed);
+      });
+    }
+    this.#updating.add(name);
+  }
+
+  #apply(changed) {
+    const { values, problems } = readAttributes(this);
+    const isFirst = this.#values.src === undefined;
+    this.#values = values;
+    const stage = this.#stage;
+    const { technique, ior, layers, steps, maxEvents, output, layer, exposure } = values;
+    stage.glass = { technique, ior, layers, steps, maxEvents, output, layer, exposure: Math.log2(exposure), transparent: !this.hasAttribute('skybox-image') };
+    stage.quality.mode = values.quality;
+
+    this.#access.describe(values);
+    const img = this.#shadow.poster.querySelector('img');
+    img.hidden = values.poster === '';
+    if (values.poster !== '' && img.getAttribute('src') !== values.poster) img.src = values.poster;
+    this.#showPoster();
+
+    if (isFirst || ['camera-orbit', 'camera-target', 'field-of-view'].some((name) => changed.has(name))) {
+      problems.push(...this.#placeCamera());
+      this.#changedCamera('none');
+    }
+    const sentence = problems.join('. ');
+    const isNew = sentence !== (this.#messages.get('invalid') ?? '');
+    this.#say('invalid', sentence);
+    if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
+    this.#updateSpin();
+    stage.invalidate();
+    if (['src', 'loading', 'environment-image', 'skybox-image'].some((name) => changed.has(name))) this.#load();
+  }
+
+  /** The camera as the attributes have it; returns sentences about those that cannot stand. */
+  #placeCamera() {
+    const { orbit } = this.#stage;
+    const attempts = [
+      () => orbit.place(parseOrbit(this.cameraOrbit)),
+      () => orbit.aim(parseTarget(this.cameraTarget)),
+      () => (orbit.fieldOfView = parseFieldOfView(this.fieldOfView)),
+    ];
+    const problems = [];
+    for (const attempt of attempts) {
+      try {
+        attempt();
+      } catch (reason) {
+        problems.push(reason.message);
+      }
+    }
+    return problems;
+  }
+
+  #updateSpin() {
+    this.#stage.spin = this.#values.autoRotate && !this.#reduced.matches && !this.#timers.pause ? spinSpeed : 0;
+  }
+
+  // --------------------------------------------------------------------------------------------------- loading
+
+  async #load() {
+    const { src, loading, environmentImage, skyboxImage } = this.#values;
+    if (!this.#isOpen || src === undefined || (loading !== 'eager' && !this.#wasSeen)) return;
+    const core = loadCore(VitrineViewer);
+    core.catch(() => {}); // said below
+    const { scene } = this.#stage;
+    if (src === '') {
+      this.#isLoaded = this.#hasFrame = false;
+      scene.model = null;
+      this.#stage.close();
+      this.#showPoster();
+    }
+    if (scene.model?.url !== src) this.#isLoaded = false;
+    this.#say('model', '');
+    this.#say('environment', '');
+    const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
+    if (!(await this.#loader.load({ environment, model: src }, scene))) return;
+    try {
+      this.#stage.core = await core;
+    } catch (reason) {
+      this.#fail('loadfailure', 'model', `The renderer cannot be loaded: ${reason.message}`, reason);
+    }
+  }
+
+  #showProgress(value) {
+    const { bar } = this.#shadow;
+    bar.hidden = value >= 1;
+    bar.firstElementChild.style.transform = `scaleX(${value})`;
+    bar.setAttribute('aria-valuenow', Math.round(100 * value));
+    this.#dispatch('progress', { totalProgress: value });
+  }
+
+  #showPoster() {
+    const stays = this.reveal === 'manual' && !this.#isDismissed;
+    this.#shadow.poster.hidden = this.#hasFrame && !stays;
+  }
+
+  // ------------------------------------------------------------------------------------------- what is told
+
+  /** What the stage tells. */
+  #tell() {
+    return {
+      shown: (kind) => {
+        if (kind === 'model') this.#loader.progress?.advance(0.95);
+      },
+      rejected: (kind, sentence) => this.#fail('loadfailure', kind, sentence),
+      frame: (milliseconds) => this.#onFrame(milliseconds),
+      scaled: (detail) => this.#dispatch('render-scale', detail),
+      turned: () => this.#changedCamera('none'),
+      lost: () => this.#fail('webglcontextlost', 'context', 'The graphics context was lost; the picture comes back with it.'),
+      restored: () => this.#say('context', ''),
+      failed: (sentence) => this.#fail('loadfailure', 'context', sentence),
+      unsupported: (sentence) => this.#fail('unsupported', 'context', sentence),
+    };
+  }
+
+  #onFrame(milliseconds) {
+    this.#hasFrame = true;
+    this.#showPoster();
+    this.#dispatch('frame', { milliseconds });
+    if (this.#isLoaded || this.#stage.scene.model?.url !== this.#values.src) return;
+    this.#isLoaded = true;
+    this.#loader.progress?.advance(1);
+    this.#access.follow();
+    this.#dispatch('load', { url: this.#values.src });
+  }
+
+  #moved(source) {
+    if (source === 'user-interaction') {
+      clearTimeout(this.#timers.pause);
+      this.#timers.pause = setTimeout(() => {
+        this.#timers.pause = 0;
+        this.#updateSpin();
+      }, spinPause);
+      this.#updateSpin();
+    }
+    this.#stage.moved();
+    this.#access.speak();
+    this.#changedCamera(source);
+  }
+
+  #changedCamera(source) {
+    this.#dispatch('camera-change', { source });
+  }
+
+  #fail(type, cause, sentence, sourceError = new Error(sentence)) {
+    this.#shadow.bar.hidden = true;
+    this.#say(cause, sentence);
+    this.#dispatch('error', { type, sourceError });
+  }
+
+  #say(cause, sentence) {
+    this.#messages.set(cause, sentence);
+    const { message } = this.#shadow;
+    message.textContent = [...this.#messages.values()].filter(Boolean).join('. ');
+    message.hidden = message.textContent === '';
+  }
+
+  #dispatch(type, detail) {
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+  }
+}
+
+defineProperties(VitrineViewer.prototype);
+customElements.get('vitrine-viewer') ?? customElements.define('vitrine-viewer', VitrineViewer);
