@@ -6,7 +6,7 @@ cd "$(dirname "$0")"
 bash scripts/dependencies.sh
 
 echo "== native, release"
-cmake --preset release >/dev/null
+cmake --preset release -DBUILD_TESTING=ON >/dev/null
 cmake --build --preset release
 
 if command -v emcmake >/dev/null; then

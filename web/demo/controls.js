@@ -1,5 +1,5 @@
 // The panel and the gallery: everything a visitor can set, in step with the store.
-import { environments, extraModels, outputs, presets, qualities, shapes, techniques } from './state.js';
+import { environments, extraEnvironments, extraModels, outputs, presets, qualities, shapes, techniques } from './state.js';
 
 const element = (id) => document.getElementById(id);
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
@@ -67,7 +67,8 @@ export function buildControls(store, page) {
   }
   fillTechniques(store, page);
   for (const value of qualities) addSegment('quality', value, capital(value), (quality) => store.set({ quality }));
-  for (const value of environments) addSegment('environment', value, capital(value), (environment) => store.set({ environment }));
+  const named = [...environments.map((id) => [id, capital(id)]), ...[...extraEnvironments].map(([id, { title }]) => [id, title])];
+  for (const [value, title] of named) addSegment('environment', value, title, (environment) => store.set({ environment }));
   for (const value of outputs) {
     const input = addSegment('output', value, outputNames[value], (output) => store.set({ output }));
     input.disabled = value !== 'picture' && !page.canShow.output;

@@ -2,7 +2,7 @@
 import { VitrineViewer } from '../element/vitrine-viewer.js';
 import { buildControls } from './controls.js';
 import { PathOverlay } from './path.js';
-import { Store, defaults, extraModels, loadExtraModels, readState, reference, techniques, writeState } from './state.js';
+import { Store, defaults, extraEnvironments, extraModels, loadExtraModels, readState, reference, techniques, writeState } from './state.js';
 import { Wipe } from './wipe.js';
 
 const element = (id) => document.getElementById(id);
@@ -31,7 +31,7 @@ function showError(text) {
 function attributesOf(state) {
   return {
     src: extraModels.get(state.model)?.url ?? state.model,
-    'environment-image': state.environment,
+    'environment-image': extraEnvironments.get(state.environment)?.url ?? state.environment,
     'skybox-image': state.backdrop ? '' : null,
     ior: state.ior,
     layers: state.layers,

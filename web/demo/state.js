@@ -51,7 +51,7 @@ const words = (unit) => (text) => {
   return new RegExp(`^${word} ${word} ${word}$`).test(text) ? [text] : [null, `must be three of auto or a number with ${unit.replaceAll('|', ', ')}`];
 };
 const readers = {
-  model: (text) => oneOf([...shapes, ...extraModels.keys()])(text), environment: oneOf(environments), backdrop: flag,
+  model: (text) => oneOf([...shapes, ...extraModels.keys()])(text), environment: (text) => oneOf([...environments, ...extraEnvironments.keys()])(text), backdrop: flag,
   technique: oneOf(ids), compare: oneOf(['none', 'reference', ...ids]), wipe: number(0, 100),
   ior: number(1, 4), layers: number(1, 16, true), steps: number(1, 1000, true), events: number(1, 64, true), quality: oneOf(qualities),
   output: oneOf(outputs), layer: number(0, 15, true), exposure: number(-10, 10), fov: number(1, 170), rotate: flag,
@@ -60,12 +60,15 @@ const readers = {
 
 /** Models beside the built-in shapes, by id: {title, url, picture}. See models.mjs. */
 export const extraModels = new Map();
+export const extraEnvironments = new Map();
 
 /** Fetches what the build made; a page built without goes without. */
 export async function loadExtraModels() {
   const response = await fetch('assets/index.json').catch(() => null);
   if (!response?.ok) return;
-  for (const { id, ...rest } of (await response.json()).models) extraModels.set(id, rest);
+  const { models, environments: more = [] } = await response.json();
+  for (const { id, ...rest } of models) extraModels.set(id, rest);
+  for (const { id, ...rest } of more) extraEnvironments.set(id, rest);
 }
 
 /** @param {string} search of the address @returns {{state: object, problems: string[]}} */
