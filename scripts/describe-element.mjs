@@ -4,7 +4,7 @@
 //   node scripts/describe-element.mjs --check   fails where it is out of date
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { fileURLToPath } from 'node:url';
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 
@@ -167,7 +167,8 @@ ${cssProperties.map(({ name, description }) => `- \`${name}\`: ${description}`).
 
 /** Types, manifest and page of the element whose table lies at `path`. */
 export async function describeElement(path) {
-  const { attributes } = await import(pathToFileURL(path));
+  // As a data URL it is a module for Node 18 too, which otherwise asks for a package.json beside it.
+  const { attributes } = await import(`data:text/javascript;base64,${readFileSync(path).toString('base64')}`);
   return { types: makeTypes(attributes), manifest: makeManifest(attributes), page: makePage(attributes) };
 }
 
