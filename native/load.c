@@ -146,6 +146,14 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->refine = options->refine;
     frame->maxEvents = options->maxEvents;
     frame->layerSize = options->layerSize;
+    frame->cubeSize = options->cubeSize;
+    frame->topLevel = options->topLevel;
+    bool fromEye = strcmp(options->layerSource, "eye") == 0;
+    if (!fromEye && strcmp(options->layerSource, "cube") != 0) {
+        return vtFail(error, vt_errorArgument, "--layer-source is '%s'; it must be cube or eye",
+                      options->layerSource);
+    }
+    frame->layerSource = fromEye ? vt_layersFromEye : vt_layersFromCube;
     frame->exposure = options->exposure;
     frame->transmittance = options->transmittance;
     frame->maxTransmittance = options->maxTransmittance;

@@ -19,12 +19,13 @@ typedef struct vtOptions {
     const char* table;
     const char* models;
     const char* backSurface;
+    const char* layerSource;
     float ior, fov, exposure;
     float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
     vtVec3 camera, target;
     bool hasCamera, hasTarget;
     int size[2];
-    int layers, steps, refine, maxEvents, layerSize;
+    int layers, steps, refine, maxEvents, layerSize, cubeSize, topLevel;
     int samples; ///< of the reference, a pixel
     float referenceThreshold;
     int frames; ///< view: close after so many, 0: never

@@ -6,8 +6,6 @@
 #include "base/math.h"
 #include "reference.h"
 
-#define VT_NO_TRIANGLE UINT32_MAX
-
 struct vtReference {
     RTCDevice device;
     RTCScene scene;

@@ -24,3 +24,13 @@
 
 // Packed normal of a texel without a surface: packSnorm2x16 never gives -32768.
 #define VT_NO_NORMAL 0x80008000u
+
+// Triangle records (src/scene/triangles.h) lie in a texture so many to a row; four texels each.
+#define VT_TRIANGLES_A_ROW 512
+#define VT_NO_TRIANGLE 0xffffffffu
+
+// The layered depth cube (src/passes/cube.h). A stored surface is its depth, 0 to VT_CUBE_DEPTH, times two,
+// plus one where its normal points away from the cube's near side; VT_CUBE_NONE: no surface.
+#define VT_MAX_CUBE_LEVELS 10
+#define VT_CUBE_DEPTH 32766.0
+#define VT_CUBE_NONE 65535u

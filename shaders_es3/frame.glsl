@@ -13,6 +13,9 @@ layout(std140) uniform Frame
     vec4 u_kay;      // largest and smallest transmittance, power, wall thickness
     ivec4 u_search;  // layers, linear steps, binary steps, events
     ivec4 u_size;    // picture width, height, layer width, height
+    mat4 u_cubeMatrix; // world to the layered depth cube, whose coordinates run from 0 to 1
+    vec4 u_cubeExtent; // of the object along the cube's axes, world; its diagonal
+    ivec4 u_cube;      // texels a side, layers, axes (3; 1: from the eye), highest level of the pyramid
     ivec4 u_output;  // vtOutput, layer, vtEnvironmentKind, transparent background
 };
 

@@ -8,12 +8,14 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "gl/uniforms.h"
+#include "passes/cube.h"
 #include "passes/merge.h"
 #include "passes/peel.h"
 #include "passes/present.h"
 #include "passes/refract.h"
 #include "passes/surface.h"
 #include "scene/camera.h"
+#include "scene/cube.h"
 
 struct vtRenderer {
     vtGL gl;
@@ -22,11 +24,14 @@ struct vtRenderer {
     vtSurfacePass surface;
     vtPeelPass peel;
     vtMergePass merge;
+    vtCubePass cube;
     vtRefractPass refract;
     vtPresentPass present;
     // The scene.
     vtMeshBuffer mesh;
     vtVec3 boundsMin, boundsMax;
+    vtCubeFrame cubeFrame;
+    bool cubeDrawn; // of this mesh
     vtEnvironmentKind environment;
     // vtRenderer_DrawImage draws into this.
     GLuint imageFramebuffer;
@@ -42,6 +47,9 @@ static vtResult createPasses(vtRenderer* renderer, vtError* error)
     }
     if (result == vt_ok) {
         result = vtMergePass_Create(&renderer->merge, gl, error);
+    }
+    if (result == vt_ok) {
+        result = vtCubePass_Create(&renderer->cube, gl, error);
     }
     if (result == vt_ok) {
         result = vtPresentPass_Create(&renderer->present, gl, error);
@@ -88,6 +96,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtSurfacePass_Destroy(&renderer->surface, gl);
     vtPeelPass_Destroy(&renderer->peel, gl);
     vtMergePass_Destroy(&renderer->merge, gl);
+    vtCubePass_Destroy(&renderer->cube, gl);
     vtRefractPass_Destroy(&renderer->refract, gl);
     vtPresentPass_Destroy(&renderer->present, gl);
     vtMeshBuffer_Destroy(&renderer->mesh, gl);
@@ -109,6 +118,8 @@ vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* e
     renderer->mesh = fresh;
     renderer->boundsMin = mesh->boundsMin;
     renderer->boundsMax = mesh->boundsMax;
+    renderer->cubeFrame = vtFitCube(mesh);
+    renderer->cubeDrawn = false;
     return vt_ok;
 }
 
@@ -168,6 +179,41 @@ static void setCamera(vtFrameUniforms* uniforms, const vtView* view)
     setVec4(uniforms->eye, camera.eye.x, camera.eye.y, camera.eye.z, 1.0f);
 }
 
+/// World coordinates to the cube's, 0 to 1, with a border of whole texels around the object.
+static void setCube(vtFrameUniforms* uniforms, const vtFrame* frame, const vtCubeFrame* cube)
+{
+    const float border = 2.5f / (float)frame->cubeSize;
+    const float low[3] = {cube->low.x, cube->low.y, cube->low.z};
+    const float high[3] = {cube->high.x, cube->high.y, cube->high.z};
+    const float diagonal = vtLength(vtSub(cube->high, cube->low));
+    for (int axis = 0; axis < 3; ++axis) {
+        // A flat object has thickness all the same.
+        float extent = fmaxf(high[axis] - low[axis], 1e-4f * diagonal);
+        float scale = (1.0f - 2.0f * border) / extent;
+        uniforms->cubeMatrix[0][axis] = scale * cube->axes[axis].x;
+        uniforms->cubeMatrix[1][axis] = scale * cube->axes[axis].y;
+        uniforms->cubeMatrix[2][axis] = scale * cube->axes[axis].z;
+        uniforms->cubeMatrix[3][axis] = border - scale * low[axis];
+        uniforms->cubeExtent[axis] = extent;
+    }
+    uniforms->cubeMatrix[3][3] = 1.0f;
+    uniforms->cubeExtent[3] = diagonal;
+}
+
+/// World coordinates to those of a frustum, 0 to 1.
+static void setEyeLayers(vtFrameUniforms* uniforms, const vtFrustum* f)
+{
+    const float across = 1.0f / (f->right - f->left), up = 1.0f / (f->top - f->bottom);
+    const float depth = f->far / (f->far - f->near);
+    for (int column = 0; column < 4; ++column) {
+        const float* p = uniforms->worldToCamera[column];
+        uniforms->cubeMatrix[column][0] = across * (p[0] - f->left * p[2]);
+        uniforms->cubeMatrix[column][1] = up * (p[1] - f->bottom * p[2]);
+        uniforms->cubeMatrix[column][2] = depth * (p[2] - f->near * p[3]);
+        uniforms->cubeMatrix[column][3] = p[2];
+    }
+}
+
 static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
                               vtError* error)
 {
@@ -184,6 +230,12 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     }
     if (result == vt_ok && row->merge) {
         result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, layers, error);
+    }
+    if (result == vt_ok && row->cube) {
+        bool fromEye = frame->layerSource == vt_layersFromEye, changed;
+        result = vtCubePass_Resize(&renderer->cube, gl, frame->cubeSize, frame->layers, fromEye ? 1 : 3,
+                                   &changed, error);
+        renderer->cubeDrawn = renderer->cubeDrawn && !changed && !fromEye;
     }
     if (result == vt_ok && drawsFarthest(frame)) {
         result = vtPeelPass_PrepareFarthest(&renderer->peel, gl, error);
@@ -220,9 +272,16 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtError
         .kay = {frame->maxTransmittance, frame->minTransmittance, frame->power, wall},
         .search = {vtFrame_LayerCount(frame), frame->steps, frame->refine, frame->maxEvents},
         .size = {frame->width, frame->height, layerWidth, layerHeight},
+        .cube = {frame->cubeSize, frame->layers, frame->layerSource == vt_layersFromEye ? 1 : 3,
+                 frame->topLevel},
         .output = {frame->output, frame->layer, renderer->environment, frame->transparentBackground},
     };
     setCamera(&uniforms, &frame->view);
+    setCube(&uniforms, frame, &renderer->cubeFrame);
+    if (frame->layerSource == vt_layersFromEye) {
+        vtFrustum fitted = vtMakeLayerFrustum(&frame->view, low, high);
+        setEyeLayers(&uniforms, &fitted);
+    }
     setFrustum(uniforms.pictureFrustum, uniforms.pictureDepth, &picture);
     setFrustum(uniforms.layerFrustum, uniforms.layerDepth, &layers);
     setVec4(uniforms.boundsMin, low.x, low.y, low.z, 0.0f);
@@ -275,6 +334,10 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* er
         vtPeelPass_Draw(&renderer->peel, gl, &renderer->mesh);
     }
     gl->BindVertexArray(renderer->emptyVertexArray);
+    if (row->cube && !renderer->cubeDrawn) {
+        vtCubePass_Draw(&renderer->cube, gl, &renderer->mesh);
+        renderer->cubeDrawn = frame->layerSource == vt_layersFromCube;
+    }
     if (row->merge) {
         vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
     }
@@ -284,7 +347,11 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* er
                                           .innerDistances = &renderer->surface.distances,
                                           .layerDepths = &renderer->peel.depths,
                                           .layerNormals = &renderer->peel.normals,
-                                          .mergedDepths = &renderer->merge.depths});
+                                          .mergedDepths = &renderer->merge.depths,
+                                          .cubeSurfaces = &renderer->cube.surfaces,
+                                          .cubeTriangles = &renderer->cube.triangles,
+                                          .intervals = &renderer->cube.intervals,
+                                          .triangles = &renderer->mesh.triangles});
     vtPresentPass_Draw(&renderer->present, gl,
                        &(vtPresentInputs){.paths = &renderer->refract.paths,
                                           .light = &renderer->refract.light,
@@ -375,7 +442,8 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
         .device = (const char*)gl->GetString(GL_RENDERER),
         .version = (const char*)gl->GetString(GL_VERSION),
         .textureBytes = vtSurfacePass_Bytes(&renderer->surface) + vtPeelPass_Bytes(&renderer->peel) +
-                        vtTexture_Bytes(&renderer->merge.depths) + vtTexture_Bytes(&renderer->refract.paths) +
+                        vtTexture_Bytes(&renderer->merge.depths) + vtCubePass_Bytes(&renderer->cube) +
+                        vtTexture_Bytes(&renderer->refract.paths) +
                         vtTexture_Bytes(&renderer->refract.light) +
                         vtTexture_Bytes(&renderer->present.environment) + vtTexture_Bytes(&renderer->image),
         .meshBytes = renderer->mesh.bytes,

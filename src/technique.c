@@ -11,7 +11,7 @@
 #define VT_REFRACT_SAMPLERS                                                                                  \
     {                                                                                                        \
         "u_surfaceDepth", "u_surfaceNormals", "u_innerDistances", "u_layerDepths", "u_layerNormals",         \
-            "u_mergedDepths"                                                                                 \
+            "u_mergedDepths", "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles"              \
     }
 
 static const vtTechniqueRow rows[vt_techniqueCount] = {
@@ -123,6 +123,22 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                         .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
                                      &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_layers,
                                      &vtChunk_search_layered, &vtChunk_refract_layered_frag},
+                        .samplers = VT_REFRACT_SAMPLERS},
+        },
+    [vt_techniqueExact] =
+        {
+            .info = {.id = "exact",
+                     .summary = "layers that know their triangles, walked by intervals: exact hits",
+                     .source = "Vitrine",
+                     .year = 2026,
+                     .refracts = true},
+            .surface = true,
+            .cube = true,
+            .refract = {.name = "exact",
+                        .vertex = {&vtChunk_screen_vert},
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
+                                     &vtChunk_first_surface, &vtChunk_triangles, &vtChunk_cube,
+                                     &vtChunk_search_exact, &vtChunk_refract_exact_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
 };

@@ -19,6 +19,7 @@ typedef struct vtTechniqueRow {
     bool innerDistances; ///< per-vertex distance inwards, with it
     int layers;          ///< layers peeled: 0, a fixed number or VT_LAYERS_OF_FRAME
     vtLayerSpace layerSpace;
+    bool cube;  ///< layered depth cube, or its like from the eye
     bool merge; ///< layers merged and gathered four to a texel
     vtProgramDef refract;
 } vtTechniqueRow;

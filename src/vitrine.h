@@ -185,6 +185,7 @@ typedef enum vtTechnique {
     vt_techniqueWyman,
     vt_techniqueOliveira,
     vt_techniqueLayered,
+    vt_techniqueExact,
     vt_techniqueCount,
 } vtTechnique;
 
@@ -210,6 +211,12 @@ typedef enum vtOutput {
     vt_outputLayerNormal = VT_OUTPUT_LAYER_NORMAL, ///< world-space normal of layer `layer` as 0.5 + 0.5 n
 } vtOutput;
 
+/// Where `exact` has its layers from.
+typedef enum vtLayerSource {
+    vt_layersFromCube = 0, ///< along three axes of the mesh's own, peeled once: for rigid meshes
+    vt_layersFromEye,      ///< from the eye, peeled each frame: for meshes that change
+} vtLayerSource;
+
 /// What `wyman` takes for the back side of an object.
 typedef enum vtBackSurface {
     vt_backSecond = 0, ///< the surface behind the first
@@ -228,6 +235,9 @@ typedef struct vtFrame {
     int refine;    ///< binary search steps after them, 0 to VT_MAX_REFINE; default 8
     int maxEvents; ///< refractions and internal reflections of a path, 1 to VT_MAX_EVENTS; default 8
     int layerSize; ///< longer side of the layer textures, texels, 16 to 8192; 0: that of the picture
+    vtLayerSource layerSource; ///< exact; default vt_layersFromCube
+    int cubeSize; ///< exact: texels along a side of its layers, a power of two, 32 to 1024; default 256
+    int topLevel; ///< exact: highest level of the interval pyramid, 0 (walks texel by texel) to 9; default 7
     vtBackSurface backSurface; ///< wyman; default vt_backSecond
     float transmittance; ///< 0 to 1: of a surface (kay-linear), of a unit of length (kay-thickness); default
                          ///< 0.8

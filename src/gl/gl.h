@@ -25,6 +25,7 @@
     X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                                                               \
     X(PFNGLCOLORMASKPROC, ColorMask)                                                                         \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                 \
+    X(PFNGLCOPYTEXSUBIMAGE3DPROC, CopyTexSubImage3D)                                                         \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                 \
     X(PFNGLCREATESHADERPROC, CreateShader)                                                                   \
     X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                 \

@@ -1,6 +1,36 @@
 #include "gl/mesh_buffer.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
+#include "scene/triangles.h"
+
+/// Uploads the records, whole rows first.
+static vtResult uploadTriangles(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtError* error)
+{
+    const int count = (int)(mesh->indexCount / 3);
+    const int rows = (count + VT_TRIANGLES_A_ROW - 1) / VT_TRIANGLES_A_ROW;
+    GLint largest = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (rows > largest) {
+        return vtFail(error, vt_errorContext,
+                      "mesh: %d triangles are more than this GPU can hold (%d); simplify it", count,
+                      largest * VT_TRIANGLES_A_ROW);
+    }
+    uint32_t* records = vtCreateTriangleRecords(mesh);
+    if (records == NULL) {
+        return vtFail(error, vt_errorMemory, "mesh: out of memory for %d triangles", count);
+    }
+    vtTexture_Resize(&buffer->triangles, gl, GL_RGBA32UI, 4 * VT_TRIANGLES_A_ROW, rows, 0);
+    const int whole = count / VT_TRIANGLES_A_ROW, rest = count % VT_TRIANGLES_A_ROW;
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 4 * VT_TRIANGLES_A_ROW, whole, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                      records);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, whole, 4 * rest, rest > 0 ? 1 : 0, GL_RGBA_INTEGER,
+                      GL_UNSIGNED_INT, records + VT_TRIANGLE_WORDS * VT_TRIANGLES_A_ROW * (size_t)whole);
+    free(records);
+    buffer->bytes += vtTexture_Bytes(&buffer->triangles);
+    return vt_ok;
+}
 
 vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtError* error)
 {
@@ -35,7 +65,10 @@ vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh*
     gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)indexBytes, mesh->indices, GL_STATIC_DRAW);
     gl->BindVertexArray(0);
 
-    vtResult result = vtCheckGL(gl, "uploading the mesh", error);
+    vtResult result = uploadTriangles(buffer, gl, mesh, error);
+    if (result == vt_ok) {
+        result = vtCheckGL(gl, "uploading the mesh", error);
+    }
     if (result != vt_ok) {
         vtMeshBuffer_Destroy(buffer, gl);
     }
@@ -56,6 +89,7 @@ void vtMeshBuffer_Destroy(vtMeshBuffer* buffer, const vtGL* gl)
         gl->DeleteBuffers(1, &buffer->vertices);
         gl->DeleteBuffers(1, &buffer->distances);
         gl->DeleteBuffers(1, &buffer->indices);
+        vtTexture_Destroy(&buffer->triangles, gl);
     }
     *buffer = (vtMeshBuffer){0};
 }

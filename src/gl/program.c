@@ -119,7 +119,7 @@ vtResult vtCreateProgram(const vtGL* gl, const vtProgramDef* def, GLuint* progra
         gl->UniformBlockBinding(linked, block, VT_FRAME_BINDING);
     }
     gl->UseProgram(linked);
-    for (int unit = 0; unit < VT_MAX_CHUNKS && def->samplers[unit] != NULL; ++unit) {
+    for (int unit = 0; unit < VT_MAX_SAMPLERS && def->samplers[unit] != NULL; ++unit) {
         gl->Uniform1i(gl->GetUniformLocation(linked, def->samplers[unit]), unit);
     }
     *program = linked;

@@ -8,14 +8,15 @@ typedef struct vtChunk {
     const char* source;
 } vtChunk;
 
-#define VT_MAX_CHUNKS 8
+#define VT_MAX_CHUNKS 12
+#define VT_MAX_SAMPLERS 16
 
 /// What a program is made of: its chunks in order, after {version, precision, constants, frame}.
 typedef struct vtProgramDef {
     const char* name;
     const vtChunk* vertex[VT_MAX_CHUNKS];   ///< NULL-terminated
     const vtChunk* fragment[VT_MAX_CHUNKS]; ///< NULL-terminated
-    const char* samplers[VT_MAX_CHUNKS];    ///< NULL-terminated; sampler i reads texture unit i
+    const char* samplers[VT_MAX_SAMPLERS];  ///< NULL-terminated; sampler i reads texture unit i
 } vtProgramDef;
 
 /// Compiles and links. On failure the sentence holds the driver's first lines; with `verbose` builds the

@@ -20,7 +20,11 @@ typedef struct vtFrameUniforms {
     float kay[4];      ///< largest and smallest transmittance, power, wall thickness
     int32_t search[4]; ///< layers, linear steps, binary steps, events
     int32_t size[4];   ///< picture width, height, layer width, height
-    int32_t output[4]; ///< vtOutput, layer, vtEnvironmentKind, transparent background
+    float cubeMatrix[4]
+                    [4]; ///< column-major; world to the layered depth cube, whose coordinates run from 0 to 1
+    float cubeExtent[4]; ///< of the object along the cube's axes, world; its diagonal
+    int32_t cube[4];     ///< texels a side, layers, axes (3; 1: from the eye), highest level of the pyramid
+    int32_t output[4];   ///< vtOutput, layer, vtEnvironmentKind, transparent background
 } vtFrameUniforms;
 
-static_assert(sizeof(vtFrameUniforms) == 16 * 16, "vtFrameUniforms must mirror the std140 block");
+static_assert(sizeof(vtFrameUniforms) == 22 * 16, "vtFrameUniforms must mirror the std140 block");

@@ -28,8 +28,10 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     gl->UseProgram(pass->programs[technique]);
     // Units as VT_REFRACT_SAMPLERS in technique.c names them.
     const vtTexture* units[] = {inputs->surfaceDepth, inputs->surfaceNormals, inputs->innerDistances,
-                                inputs->layerDepths,  inputs->layerNormals,   inputs->mergedDepths};
-    for (int unit = 0; unit < 6; ++unit) {
+                                inputs->layerDepths,  inputs->layerNormals,   inputs->mergedDepths,
+                                inputs->cubeSurfaces, inputs->cubeTriangles,  inputs->intervals,
+                                inputs->triangles};
+    for (int unit = 0; unit < 10; ++unit) {
         if (units[unit]->name != 0) {
             vtTexture_Bind(units[unit], gl, unit);
         }

@@ -20,6 +20,10 @@ typedef struct vtRefractInputs {
     const vtTexture* layerDepths;
     const vtTexture* layerNormals;
     const vtTexture* mergedDepths;
+    const vtTexture* cubeSurfaces;
+    const vtTexture* cubeTriangles;
+    const vtTexture* intervals;
+    const vtTexture* triangles;
 } vtRefractInputs;
 
 vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error);

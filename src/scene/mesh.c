@@ -8,6 +8,7 @@
 // Geometry is computed in double: the products of two finite floats neither overflow nor vanish there.
 #include "base/error.h"
 #include "base/math.h"
+#include "scene/weld.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -117,63 +118,6 @@ static vtResult checkIndices(const vtMeshDef* def, const char* name, vtError* er
     return vt_ok;
 }
 
-// ---------------------------------------------------------------------------------------------- welding
-
-/// Scrambles all bits of a key (the finaliser of MurmurHash3), so that linear probing stays short.
-static uint64_t mixBits(uint64_t key)
-{
-    key = (key ^ (key >> 33)) * 0xff51afd7ed558ccdu;
-    key = (key ^ (key >> 33)) * 0xc4ceb9fe1a85ec53u;
-    return key ^ (key >> 33);
-}
-
-/// The power of two that holds `count` keys at most four fifths full; 0 where size_t cannot express it.
-static size_t tableCapacity(uint32_t count)
-{
-    size_t capacity = 16;
-    while (capacity != 0 && capacity - capacity / 5 < count) {
-        capacity *= 2;
-    }
-    return capacity;
-}
-
-static uint64_t hashPosition(const float* position)
-{
-    uint32_t bits[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        float value = position[axis] + 0.0f; // -0 becomes +0, its equal
-        memcpy(&bits[axis], &value, sizeof value);
-    }
-    return mixBits(mixBits(bits[0] | (uint64_t)bits[1] << 32) + bits[2]);
-}
-
-/// Maps every vertex to the first one at exactly its position.
-static bool weldPositions(const vtMesh* mesh, uint32_t* welded)
-{
-    size_t capacity = tableCapacity(mesh->vertexCount);
-    uint32_t* slots = capacity == 0 ? NULL : calloc(capacity, sizeof *slots); // vertex + 1; 0: unused
-    if (slots == NULL) {
-        return false;
-    }
-    for (uint32_t vertex = 0; vertex < mesh->vertexCount; ++vertex) {
-        const float* p = mesh->positions + 3 * (size_t)vertex;
-        size_t slot = (size_t)hashPosition(p) & (capacity - 1);
-        while (slots[slot] != 0) {
-            const float* q = mesh->positions + 3 * (size_t)(slots[slot] - 1);
-            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) {
-                break;
-            }
-            slot = (slot + 1) & (capacity - 1);
-        }
-        if (slots[slot] == 0) {
-            slots[slot] = vertex + 1;
-        }
-        welded[vertex] = slots[slot] - 1;
-    }
-    free(slots);
-    return true;
-}
-
 static Triangle getTriangle(const vtMesh* mesh, const uint32_t* welded, size_t firstIndex)
 {
     Triangle triangle = {0};
@@ -277,7 +221,7 @@ static void addEdge(EdgeSlot* slots, size_t capacity, uint32_t from, uint32_t to
     }
     uint32_t low = from < to ? from : to;
     uint32_t high = from < to ? to : from;
-    size_t slot = (size_t)mixBits(low | (uint64_t)high << 32) & (capacity - 1);
+    size_t slot = (size_t)vtMixBits(low | (uint64_t)high << 32) & (capacity - 1);
     while (slots[slot].low != slots[slot].high && (slots[slot].low != low || slots[slot].high != high)) {
         slot = (slot + 1) & (capacity - 1);
     }
@@ -290,7 +234,7 @@ static void addEdge(EdgeSlot* slots, size_t capacity, uint32_t from, uint32_t to
 /// corners count: exporters fill T-junctions with them, and the surface is closed only with them.
 static bool countOpenEdges(vtMesh* mesh, const uint32_t* welded)
 {
-    size_t capacity = tableCapacity(mesh->indexCount); // at most one edge for each index
+    size_t capacity = vtTableCapacity(mesh->indexCount); // at most one edge for each index
     EdgeSlot* slots = capacity == 0 ? NULL : calloc(capacity, sizeof *slots);
     if (slots == NULL) {
         return false;
@@ -363,7 +307,7 @@ static bool buildMesh(const vtMeshDef* def, vtMesh* mesh)
         return false;
     }
     uint32_t* welded = calloc(mesh->vertexCount, sizeof *welded);
-    bool built = welded != NULL && weldPositions(mesh, welded) && countOpenEdges(mesh, welded);
+    bool built = welded != NULL && vtWeldPositions(mesh, welded) && countOpenEdges(mesh, welded);
     if (built) {
         countDegenerate(mesh, welded);
         findBounds(mesh);

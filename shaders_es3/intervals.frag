@@ -1,0 +1,75 @@
+// One level of the interval pyramid. Level 0: a texel is the cell between four columns of the cube's side,
+// whose surfaces it bounds. Level k: the four texels below it.
+#ifdef FIRST_LEVEL
+uniform usampler2DArray u_cubeSurfaces;
+uniform int u_axis;
+#else
+uniform usampler2DArray u_intervals;
+uniform int u_level; // the one below
+uniform int u_axis;
+#endif
+
+layout(location = 0) out uvec4 o_inner;
+layout(location = 1) out uvec4 o_outer;
+
+#ifdef FIRST_LEVEL
+// What a surface may bulge between its samples, in steps of stored depth.
+const float MARGIN = 2.0;
+
+// The column's surfaces as intervals. A surface that enters the glass while inside, or leaves it while
+// outside (meshes that overlap themselves), parts intervals without changing the state.
+void readColumn(ivec2 texel, out vec4 inner, out vec4 outer)
+{
+    inner = NO_INNER;
+    Union u = EMPTY;
+    bool inside = false;
+    float start = 0.0;
+    int groups = (u_cube.y + 3) / 4;
+    for (int group = 0; group < groups; ++group) {
+        uvec4 surfaces = texelFetch(u_cubeSurfaces, ivec3(texel, u_axis * groups + group), 0);
+        for (int i = 0; i < 4; ++i) {
+            if (surfaces[i] == VT_CUBE_NONE) {
+                continue;
+            }
+            float depth = float(surfaces[i] >> 1);
+            bool leaving = (surfaces[i] & 1u) != 0u;
+            if (inside) {
+                inner = keepLongest(inner, vec2(start + MARGIN, depth - MARGIN));
+            }
+            if (leaving) {
+                u = addInterval(u, vec2(max((inside ? start : depth) - MARGIN, 0.0), depth + MARGIN));
+            } else if (inside) {
+                u = addInterval(u, vec2(max(start - MARGIN, 0.0), depth + MARGIN));
+            }
+            inside = !leaving;
+            start = depth;
+        }
+    }
+    if (inside) { // more surfaces than layers
+        inner = keepLongest(inner, vec2(start + MARGIN, VT_CUBE_DEPTH));
+        u = addInterval(u, vec2(max(start - MARGIN, 0.0), VT_CUBE_DEPTH));
+    }
+    outer = unionIntervals(u);
+}
+#endif
+
+void main()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    vec4 inner = vec4(0.0, NONE, NONE, 0.0), outer = NO_OUTER;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        vec4 nextInner, nextOuter;
+#ifdef FIRST_LEVEL
+        readColumn(min(texel + step, u_cube.x - 1), nextInner, nextOuter);
+#else
+        ivec2 below = 2 * texel + step;
+        nextInner = vec4(texelFetch(u_intervals, ivec3(below, 2 * u_axis), u_level));
+        nextOuter = vec4(texelFetch(u_intervals, ivec3(below, 2 * u_axis + 1), u_level));
+#endif
+        inner = meetInner(inner, nextInner);
+        outer = joinOuter(outer, nextOuter);
+    }
+    o_inner = uvec4(inner);
+    o_outer = uvec4(outer);
+}

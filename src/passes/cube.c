@@ -1,0 +1,175 @@
+#include "passes/cube.h"
+
+#include "base/error.h"
+#include "shaders.h"
+
+static const vtProgramDef peelDef = {
+    .name = "peel cube",
+    .vertex = {&vtChunk_triangles, &vtChunk_cube, &vtChunk_peel_cube_vert},
+    .fragment = {&vtChunk_peel_cube_frag},
+    .samplers = {"u_triangles", "u_previousDepth"},
+};
+
+static const vtProgramDef firstDef = {
+    .name = "intervals of columns",
+    .vertex = {&vtChunk_screen_vert},
+    .fragment = {&vtChunk_first_level, &vtChunk_intervals, &vtChunk_intervals_frag},
+    .samplers = {"u_cubeSurfaces"},
+};
+
+static const vtProgramDef levelDef = {
+    .name = "intervals",
+    .vertex = {&vtChunk_screen_vert},
+    .fragment = {&vtChunk_intervals, &vtChunk_intervals_frag},
+    .samplers = {"u_intervals"},
+};
+
+vtResult vtCubePass_Create(vtCubePass* pass, const vtGL* gl, vtError* error)
+{
+    *pass = (vtCubePass){0};
+    vtResult result = vtCreateProgram(gl, &peelDef, &pass->peelProgram, error);
+    if (result == vt_ok) {
+        result = vtCreateProgram(gl, &firstDef, &pass->firstProgram, error);
+    }
+    if (result == vt_ok) {
+        result = vtCreateProgram(gl, &levelDef, &pass->levelProgram, error);
+    }
+    if (result == vt_ok) {
+        pass->peelAxis = gl->GetUniformLocation(pass->peelProgram, "u_axis");
+        pass->firstAxis = gl->GetUniformLocation(pass->firstProgram, "u_axis");
+        pass->levelAxis = gl->GetUniformLocation(pass->levelProgram, "u_axis");
+        pass->levelBelow = gl->GetUniformLocation(pass->levelProgram, "u_level");
+    }
+    return result;
+}
+
+vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layers, int sides, bool* changed,
+                           vtError* error)
+{
+    const int groups = (layers + 3) / 4;
+    int levels = 1;
+    while (size >> levels > 0 && levels < VT_MAX_CUBE_LEVELS) {
+        ++levels;
+    }
+    *changed = vtTexture_Resize(&pass->surfaces, gl, GL_RGBA16UI, size, size, sides * groups);
+    *changed |= vtTexture_Resize(&pass->triangles, gl, GL_RGBA32UI, size, size, sides * groups);
+    *changed |= vtTexture_ResizeLevels(&pass->intervals, gl, GL_RGBA16UI, size, size, 2 * sides, levels);
+    for (int i = 0; i < 2; ++i) {
+        *changed |= vtTexture_Resize(&pass->depthBuffers[i], gl, GL_DEPTH_COMPONENT32F, size, size, 0);
+        *changed |= vtTexture_Resize(&pass->scratch[i], gl, GL_RGBA16UI, size, size, 0);
+    }
+    if (!*changed) {
+        return vtSucceed(error);
+    }
+    vtDestroyFramebuffers(gl, &pass->peelFramebuffers[0][0], 3 * VT_MAX_LAYER_GROUPS * 2);
+    vtAttachment scratch[] = {{&pass->scratch[0], 0}, {&pass->scratch[1], 0}};
+    vtResult result = vtMakeFramebuffer(gl, "intervals", scratch, 2, NULL, &pass->levelFramebuffer, error);
+    if (result == vt_ok) {
+        result = vtMakeFramebuffer(gl, "cube start", NULL, 0, &pass->depthBuffers[1], &pass->startFramebuffer,
+                                   error);
+    }
+    for (int slice = 0; slice < sides * groups; ++slice) {
+        for (int i = 0; i < 2 && result == vt_ok; ++i) {
+            vtAttachment colors[] = {{&pass->surfaces, slice}, {&pass->triangles, slice}};
+            result = vtMakeFramebuffer(gl, "cube", colors, 2, &pass->depthBuffers[i],
+                                       &pass->peelFramebuffers[slice][i], error);
+        }
+    }
+    return result;
+}
+
+static void peelSide(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer* mesh, int side, int groups)
+{
+    const float near = 0.0f, far = 1.0f;
+    const GLuint none[4] = {VT_CUBE_NONE, VT_CUBE_NONE, VT_CUBE_NONE, VT_CUBE_NONE};
+    const int size = pass->surfaces.width;
+    gl->Uniform1i(pass->peelAxis, side);
+    vtBindFramebuffer(gl, pass->startFramebuffer, size, size);
+    gl->ClearBufferfv(GL_DEPTH, 0, &near);
+    for (int layer = 0; layer < 4 * groups; ++layer) {
+        int channel = layer % 4;
+        vtBindFramebuffer(gl, pass->peelFramebuffers[side * groups + layer / 4][layer % 2], size, size);
+        if (channel == 0) {
+            gl->ClearBufferuiv(GL_COLOR, 0, none);
+            gl->ClearBufferuiv(GL_COLOR, 1, none);
+        }
+        gl->ClearBufferfv(GL_DEPTH, 0, &far);
+        gl->ColorMask(channel == 0, channel == 1, channel == 2, channel == 3);
+        vtTexture_Bind(&pass->depthBuffers[(layer + 1) % 2], gl, 1);
+        gl->DrawArrays(GL_TRIANGLES, 0, mesh->indexCount);
+        gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    }
+}
+
+/// Copies what was drawn into both scratch textures into a level of the pyramid.
+static void keepLevel(const vtCubePass* pass, const vtGL* gl, int side, int level)
+{
+    const int size = pass->surfaces.width >> level;
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D_ARRAY, pass->intervals.name);
+    for (int i = 0; i < 2; ++i) {
+        gl->ReadBuffer(GL_COLOR_ATTACHMENT0 + (GLenum)i);
+        gl->CopyTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, 2 * side + i, 0, 0, size, size);
+    }
+    gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
+}
+
+void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer* mesh)
+{
+    const int sides = pass->intervals.layers / 2;
+    const int groups = pass->surfaces.layers / sides;
+    gl->Enable(GL_DEPTH_TEST);
+    gl->UseProgram(pass->peelProgram);
+    vtTexture_Bind(&mesh->triangles, gl, 0);
+    for (int side = 0; side < sides; ++side) {
+        peelSide(pass, gl, mesh, side, groups);
+    }
+    gl->Disable(GL_DEPTH_TEST);
+
+    gl->UseProgram(pass->firstProgram);
+    for (int side = 0; side < sides; ++side) {
+        vtTexture_Bind(&pass->surfaces, gl, 0);
+        vtBindFramebuffer(gl, pass->levelFramebuffer, pass->surfaces.width, pass->surfaces.width);
+        gl->Uniform1i(pass->firstAxis, side);
+        gl->DrawArrays(GL_TRIANGLES, 0, 3);
+        keepLevel(pass, gl, side, 0);
+    }
+    gl->UseProgram(pass->levelProgram);
+    vtTexture_Bind(&pass->intervals, gl, 0);
+    for (int level = 1; level < pass->intervals.levels; ++level) {
+        vtBindFramebuffer(gl, pass->levelFramebuffer, pass->surfaces.width >> level,
+                          pass->surfaces.width >> level);
+        gl->Uniform1i(pass->levelBelow, level - 1);
+        for (int side = 0; side < sides; ++side) {
+            gl->Uniform1i(pass->levelAxis, side);
+            gl->DrawArrays(GL_TRIANGLES, 0, 3);
+            keepLevel(pass, gl, side, level);
+        }
+    }
+}
+
+void vtCubePass_Destroy(vtCubePass* pass, const vtGL* gl)
+{
+    vtDestroyFramebuffers(gl, &pass->startFramebuffer, 1);
+    vtDestroyFramebuffers(gl, &pass->levelFramebuffer, 1);
+    vtDestroyFramebuffers(gl, &pass->peelFramebuffers[0][0], 3 * VT_MAX_LAYER_GROUPS * 2);
+    vtTexture_Destroy(&pass->surfaces, gl);
+    vtTexture_Destroy(&pass->triangles, gl);
+    vtTexture_Destroy(&pass->intervals, gl);
+    for (int i = 0; i < 2; ++i) {
+        vtTexture_Destroy(&pass->depthBuffers[i], gl);
+        vtTexture_Destroy(&pass->scratch[i], gl);
+    }
+    gl->DeleteProgram(pass->peelProgram);
+    gl->DeleteProgram(pass->firstProgram);
+    gl->DeleteProgram(pass->levelProgram);
+    *pass = (vtCubePass){0};
+}
+
+size_t vtCubePass_Bytes(const vtCubePass* pass)
+{
+    return vtTexture_Bytes(&pass->surfaces) + vtTexture_Bytes(&pass->triangles) +
+           vtTexture_Bytes(&pass->intervals) + vtTexture_Bytes(&pass->depthBuffers[0]) +
+           vtTexture_Bytes(&pass->depthBuffers[1]) + vtTexture_Bytes(&pass->scratch[0]) +
+           vtTexture_Bytes(&pass->scratch[1]);
+}

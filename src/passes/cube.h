@@ -1,0 +1,30 @@
+#pragma once
+
+#include "gl/mesh_buffer.h"
+#include "gl/program.h"
+#include "gl/target.h"
+
+/// Layers of the mesh's triangles along the axes of a cube, or from the eye, and the interval pyramid over
+/// them, which a search walks.
+typedef struct vtCubePass {
+    GLuint peelProgram, firstProgram, levelProgram;
+    GLint peelAxis, firstAxis, levelAxis, levelBelow;
+    GLuint startFramebuffer;
+    GLuint peelFramebuffers[3 * VT_MAX_LAYER_GROUPS][2]; ///< by slice and by depth buffer
+    GLuint levelFramebuffer;
+    vtTexture depthBuffers[2];
+    vtTexture surfaces;  ///< RGBA16UI array, four layers a texel: VT_CUBE_... in constants.h
+    vtTexture triangles; ///< RGBA32UI array, those surfaces' triangles
+    vtTexture intervals; ///< RGBA16UI array with mip levels: inner and outer intervals of each axis
+    vtTexture scratch[2];
+} vtCubePass;
+
+vtResult vtCubePass_Create(vtCubePass* pass, const vtGL* gl, vtError* error);
+/// sides: 3 for a cube, 1 for layers from the eye. size: texels, a power of two. True in *changed where
+/// something was made anew.
+vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layers, int sides, bool* changed,
+                           vtError* error);
+/// Peels the mesh and builds the pyramid. Any vertex array without attributes must be bound.
+void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer* mesh);
+void vtCubePass_Destroy(vtCubePass* pass, const vtGL* gl);
+size_t vtCubePass_Bytes(const vtCubePass* pass);
