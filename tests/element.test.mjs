@@ -57,6 +57,13 @@ function glb({ ior = 1.3, padding = 0 } = {}) {
   ]);
 }
 
+/** An environment of all colours and opacities. */
+function panorama() {
+  const png = new PNG({ width: 64, height: 32 });
+  for (let i = 0; i < 64 * 32; ++i) png.data.set([4 * (i % 64), 8 * (i >> 6), (i * 37) % 256, (i * 5) % 256], 4 * i);
+  return png;
+}
+
 /** The built site, test pages from memory, and files that come slowly or not at all. */
 function startServer(requests, pages) {
   const server = createServer(async (request, response) => {
@@ -79,6 +86,8 @@ function startServer(requests, pages) {
         await new Promise((done) => setTimeout(done, 60));
       }
       response.end();
+    } else if (pathname === '/panorama.png') {
+      send(PNG.sync.write(panorama()), 'image/png');
     } else if (pathname === '/poster.png') {
       const png = new PNG({ width: 8, height: 8 });
       for (let i = 0; i < png.data.length; i += 4) png.data.set([250, 10, 200, 255], i);
@@ -219,6 +228,22 @@ describe('the element', { skip }, () => {
     await settle(page);
     const expected = nativePicture('goblet', '-e', 'checker', '--camera', '0,0,6', '--target', '0,0,0', '--exposure', '1', '--ior', '1.3');
     assert.ok(difference(await picture(page), expected) < 0.5, 'a view of its own');
+  });
+
+  test('takes pictures as environment, decoded by the browser to the file\'s own numbers', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere" environment-image="/panorama.png" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
+    writeFileSync(join(folder, 'panorama.png'), PNG.sync.write(panorama()));
+    const differing = difference(await picture(page), nativePicture('sphere', '-e', 'panorama.png'));
+    assert.ok(differing < 0.5, `${differing} % differ`);
+    const bytes = await page.evaluate(async () => {
+      const { decodePicture, openInCore } = await import('/element/picture.js');
+      const contents = await decodePicture(new Uint8Array(await (await fetch('/panorama.png')).arrayBuffer()));
+      const core = { HEAPU8: new Uint8Array(16 + 4 * 64 * 32), _malloc: () => 16 };
+      const gl = document.createElement('canvas').getContext('webgl2');
+      const call = openInCore(core, gl, 'OpenEnvironment', contents, (...values) => values.join());
+      return [call, ...core.HEAPU8.subarray(16)];
+    });
+    assert.deepEqual(bytes, ['OpenPicture,16,64,32', ...panorama().data]);
   });
 
   test('several on a page share one module and do not disturb each other', async (t) => {
