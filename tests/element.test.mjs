@@ -64,6 +64,10 @@ function panorama() {
   return png;
 }
 
+/** As Radiance HDR: four pixels of RGBE, red, green, blue and bright. */
+const radiance = Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n'),
+  Buffer.from([200, 20, 10, 128, 10, 180, 20, 128, 30, 10, 220, 128, 255, 255, 255, 131])]);
+
 /** The built site, test pages from memory, and files that come slowly or not at all. */
 function startServer(requests, pages) {
   const server = createServer(async (request, response) => {
@@ -88,6 +92,8 @@ function startServer(requests, pages) {
       response.end();
     } else if (pathname === '/panorama.png') {
       send(PNG.sync.write(panorama()), 'image/png');
+    } else if (pathname === '/panorama.hdr') {
+      send(radiance, 'image/vnd.radiance');
     } else if (pathname === '/poster.png') {
       const png = new PNG({ width: 8, height: 8 });
       for (let i = 0; i < png.data.length; i += 4) png.data.set([250, 10, 200, 255], i);
@@ -231,10 +237,14 @@ describe('the element', { skip }, () => {
   });
 
   test('takes pictures as environment, decoded by the browser to the file\'s own numbers', async (t) => {
-    const page = await open(t, '<vitrine-viewer id="a" src="sphere" environment-image="/panorama.png" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
-    writeFileSync(join(folder, 'panorama.png'), PNG.sync.write(panorama()));
-    const differing = difference(await picture(page), nativePicture('sphere', '-e', 'panorama.png'));
-    assert.ok(differing < 0.5, `${differing} % differ`);
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
+    for (const [name, bytes] of [['panorama.png', PNG.sync.write(panorama())], ['panorama.hdr', radiance]]) {
+      writeFileSync(join(folder, name), bytes);
+      await Promise.all([page.waitForResponse(`**/${name}`), page.evaluate((url) => (a.environmentImage = url), `/${name}`)]);
+      await settle(page);
+      const differing = difference(await picture(page), nativePicture('sphere', '-e', name));
+      assert.ok(differing < 0.5, `${name}: ${differing} % differ`);
+    }
     const bytes = await page.evaluate(async () => {
       const { decodePicture, openInCore } = await import('/element/picture.js');
       const contents = await decodePicture(new Uint8Array(await (await fetch('/panorama.png')).arrayBuffer()));
