@@ -1,5 +1,5 @@
-// In place of libc's strtod (--wrap): the browser reads numbers as exactly, and without the 128-bit arithmetic
-// that is 3 KB of the compressed wasm.
+// In place of libc's strtod (--wrap): the browser reads numbers as exactly, and without the 128-bit
+// arithmetic that is 3 KB of the compressed wasm.
 #include <emscripten.h>
 #include <string.h>
 

@@ -108,6 +108,16 @@ static vtResult failDecode(const char* name, vtError* error)
                   name, reason != NULL ? reason : "unknown reason");
 }
 
+/// As stbi_loadf_from_memory, which would bring all conversions of the other formats: 2 KB of a page's wasm.
+static float* loadHdr(const uint8_t* bytes, int length, int* width, int* height)
+{
+    stbi__context context;
+    stbi__result_info info;
+    int channels = 0;
+    stbi__start_mem(&context, bytes, length);
+    return stbi__hdr_load(&context, width, height, &channels, 3, &info);
+}
+
 #ifdef VT_HDR_ONLY
 static vtResult decodeSrgb(const uint8_t* bytes, int length, const char* name, float** pixels, int* width,
                            int* height, vtError* error)
@@ -168,7 +178,7 @@ vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, f
 
     float* values = NULL;
     if (stbi_is_hdr_from_memory(bytes, length)) {
-        values = stbi_loadf_from_memory(bytes, length, &columns, &rows, &channels, 3);
+        values = loadHdr(bytes, length, &columns, &rows);
         if (values == NULL) {
             return failDecode(name, error);
         }
