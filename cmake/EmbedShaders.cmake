@@ -7,10 +7,14 @@ foreach(source IN LISTS SOURCES)
   get_filename_component(file ${source} NAME)
   string(REGEX REPLACE "\\.(glsl|h)$" "" symbol ${file})
   string(REPLACE "." "_" symbol ${symbol})
-  # Comments and indentation stay behind, line ends do not: a driver's line numbers are those of the file.
+  # Comments, indentation and blanks about most signs stay behind, line ends do not: a driver's line numbers are
+  # those of the file.
   file(READ ${source} text)
   string(REGEX REPLACE "[ \t]*//[^\n]*" "" text "${text}")
   string(REGEX REPLACE "\n[ \t]+" "\n" text "${text}")
+  if(NOT text MATCHES "#") # a macro's name and its text must stay apart
+    string(REGEX REPLACE " *([*/=<>?:,&|(){}]) *" "\\1" text "${text}")
+  endif()
   file(WRITE ${OUTPUT_C}.part "${text}")
   file(READ ${OUTPUT_C}.part hex HEX)
   file(REMOVE ${OUTPUT_C}.part)

@@ -2,7 +2,7 @@
 //   node scripts/package.mjs            needs build/web (scripts/build-web.sh) and the packages of tests/
 import { build } from '../tests/node_modules/esbuild/lib/main.js';
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
@@ -15,12 +15,17 @@ const version = readFileSync(join(root, 'src/vitrine.h'), 'utf8').match(/VT_VERS
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
-for (const name of ['vitrine-core.js', 'vitrine-core.wasm']) {
-  cpSync(join(web, name), join(folder, name));
-}
-// The element's modules one by one, without comments: a bundler of the page's own may join them.
-const modules = readdirSync(join(web, 'element')).map((name) => join(web, 'element', name));
-await build({ entryPoints: modules, outdir: join(folder, 'element'), minify: true, target: 'es2022', logLevel: 'warning' });
+cpSync(join(web, 'vitrine-core.wasm'), join(folder, 'vitrine-core.wasm'));
+const small = { format: 'esm', minify: true, target: 'es2022', logLevel: 'warning' };
+await build({ ...small, entryPoints: [join(web, 'vitrine-core.js')], outdir: folder });
+// The element's modules in one: together they compress better, and a page waits for one only.
+await build({
+  ...small,
+  entryPoints: [join(web, 'element/vitrine-viewer.js')],
+  bundle: true,
+  external: ['../vitrine-core.js'],
+  outdir: join(folder, 'element'),
+});
 
 const { types, manifest } = await describeElement(join(web, 'element/attributes.js'));
 writeFileSync(join(folder, 'index.d.ts'), types);
@@ -36,13 +41,10 @@ await build({
       export { VitrineViewer };`,
     resolveDir: folder,
   },
+  ...small,
   bundle: true,
-  format: 'esm',
-  minify: true,
-  target: 'es2022',
   loader: { '.wasm': 'binary' },
   outfile: join(folder, 'vitrine-viewer.bundle.js'),
-  logLevel: 'warning',
 });
 
 writeFileSync(
@@ -75,11 +77,11 @@ const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', jo
 console.log(`build/${packed.toString().trim()}`);
 
 // What the element loads, as a server would send it.
-const loaded = ['vitrine-core.wasm', 'vitrine-core.js', ...readdirSync(join(folder, 'element')).map((name) => `element/${name}`)];
+const loaded = ['vitrine-core.wasm', 'vitrine-core.js', 'element/vitrine-viewer.js'];
 let sum = 0;
 for (const name of loaded) {
   const bytes = gzipSync(readFileSync(join(folder, name)), { level: 9 }).length;
   sum += bytes;
-  if (bytes > 3000) console.log(`  ${name}: ${statSync(join(folder, name)).size} bytes, ${bytes} gzip`);
+  console.log(`  ${name}: ${statSync(join(folder, name)).size} bytes, ${bytes} gzip`);
 }
 console.log(`  all that the element loads: ${(sum / 1000).toFixed(1)} KB gzip`);

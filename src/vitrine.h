@@ -150,6 +150,10 @@ const char* vtEnvironmentSummary(int index);
 vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtEnvironment* environment,
                            vtError* error);
 
+/// The same of pixels that are decoded already: 8-bit sRGB, RGBA, top row first; alpha is not looked at.
+vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, const char* name,
+                                  vtEnvironment* environment, vtError* error);
+
 /// Radiance arriving from a unit direction; the same numbers as the shaders give.
 vtVec3 vtEnvironment_Sample(const vtEnvironment* environment, vtVec3 direction);
 void vtDestroyEnvironment(vtEnvironment* environment);

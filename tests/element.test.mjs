@@ -57,6 +57,17 @@ function glb({ ior = 1.3, padding = 0 } = {}) {
   ]);
 }
 
+/** An environment of all colours and opacities. */
+function panorama() {
+  const png = new PNG({ width: 64, height: 32 });
+  for (let i = 0; i < 64 * 32; ++i) png.data.set([4 * (i % 64), 8 * (i >> 6), (i * 37) % 256, (i * 5) % 256], 4 * i);
+  return png;
+}
+
+/** As Radiance HDR: four pixels of RGBE, red, green, blue and bright. */
+const radiance = Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n'),
+  Buffer.from([200, 20, 10, 128, 10, 180, 20, 128, 30, 10, 220, 128, 255, 255, 255, 131])]);
+
 /** The built site, test pages from memory, and files that come slowly or not at all. */
 function startServer(requests, pages) {
   const server = createServer(async (request, response) => {
@@ -79,6 +90,10 @@ function startServer(requests, pages) {
         await new Promise((done) => setTimeout(done, 60));
       }
       response.end();
+    } else if (pathname === '/panorama.png') {
+      send(PNG.sync.write(panorama()), 'image/png');
+    } else if (pathname === '/panorama.hdr') {
+      send(radiance, 'image/vnd.radiance');
     } else if (pathname === '/poster.png') {
       const png = new PNG({ width: 8, height: 8 });
       for (let i = 0; i < png.data.length; i += 4) png.data.set([250, 10, 200, 255], i);
@@ -219,6 +234,26 @@ describe('the element', { skip }, () => {
     await settle(page);
     const expected = nativePicture('goblet', '-e', 'checker', '--camera', '0,0,6', '--target', '0,0,0', '--exposure', '1', '--ior', '1.3');
     assert.ok(difference(await picture(page), expected) < 0.5, 'a view of its own');
+  });
+
+  test('takes pictures as environment, decoded by the browser to the file\'s own numbers', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
+    for (const [name, bytes] of [['panorama.png', PNG.sync.write(panorama())], ['panorama.hdr', radiance]]) {
+      writeFileSync(join(folder, name), bytes);
+      await Promise.all([page.waitForResponse(`**/${name}`), page.evaluate((url) => (a.environmentImage = url), `/${name}`)]);
+      await settle(page);
+      const differing = difference(await picture(page), nativePicture('sphere', '-e', name));
+      assert.ok(differing < 0.5, `${name}: ${differing} % differ`);
+    }
+    const bytes = await page.evaluate(async () => {
+      const { decodePicture, openInCore } = await import('/element/picture.js');
+      const contents = await decodePicture(new Uint8Array(await (await fetch('/panorama.png')).arrayBuffer()));
+      const core = { HEAPU8: new Uint8Array(16 + 4 * 64 * 32), _malloc: () => 16 };
+      const gl = document.createElement('canvas').getContext('webgl2');
+      const call = openInCore(core, gl, 'OpenEnvironment', contents, (...values) => values.join());
+      return [call, ...core.HEAPU8.subarray(16)];
+    });
+    assert.deepEqual(bytes, ['OpenPicture,16,64,32', ...panorama().data]);
   });
 
   test('several on a page share one module and do not disturb each other', async (t) => {

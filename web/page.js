@@ -1,6 +1,7 @@
 // The page's half in JavaScript: controls, files, frames. Every number is checked by the core; what
 // it says about a bad one is shown as it is, and the picture stays.
 import { listenBeforeGlfw, listenToInput } from './input.js';
+import { decodePicture, openInCore } from './element/picture.js';
 import createVitrine from './vitrine.js';
 
 const element = (id) => document.getElementById(id);
@@ -101,10 +102,10 @@ async function openFile(file, kind) {
   let done = false;
   try {
     const bytes = new Uint8Array(await file.arrayBuffer());
-    const place = core._malloc(bytes.length || 1);
-    if (place === 0) throw new Error('it is too large for the memory of this page');
-    core.HEAPU8.set(bytes, place);
-    done = attempt(kind === 'model' ? 'OpenModel' : 'OpenEnvironment', place, bytes.length, file.name);
+    const [call, contents] = kind === 'model' ? ['OpenModel', bytes] : ['OpenEnvironment', await decodePicture(bytes)];
+    const { GLctx } = core.GL.currentContext;
+    done = openInCore(core, GLctx, call, contents, (name, ...values) => attempt(name, ...values, file.name));
+    if (done === null) throw new Error('it is too large for the memory of this page');
   } catch (reason) {
     showError(`${file.name}: cannot be read: ${reason.message}`);
   }

@@ -107,13 +107,23 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetEnvironment(vtViewer* viewer, const
     return sentence(viewer, result == vt_ok ? showEnvironment(viewer, &environment) : result);
 }
 
-/// The contents of an equirectangular .hdr, .png or .jpg.
+/// The contents of an equirectangular .hdr.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenEnvironment(vtViewer* viewer, uint8_t* bytes, size_t size,
                                                           const char* name)
 {
     vtEnvironment environment;
     vtResult result = vtLoadEnvironment(bytes, size, name, &environment, &viewer->error);
     free(bytes);
+    return sentence(viewer, result == vt_ok ? showEnvironment(viewer, &environment) : result);
+}
+
+/// An equirectangular picture that the browser has decoded, RGBA, top row first.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenPicture(vtViewer* viewer, uint8_t* pixels, int width,
+                                                      int height, const char* name)
+{
+    vtEnvironment environment;
+    vtResult result = vtCreateImageEnvironment(pixels, width, height, name, &environment, &viewer->error);
+    free(pixels);
     return sentence(viewer, result == vt_ok ? showEnvironment(viewer, &environment) : result);
 }
 

@@ -20,9 +20,11 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
+#define STBI_ONLY_HDR
+#ifndef VT_HDR_ONLY // web/CMakeLists.txt: a browser decodes the others itself
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#define STBI_ONLY_HDR
+#endif
 #include <stb/stb_image.h>
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -54,29 +56,47 @@ static void sanitise(float* values, size_t count)
     }
 }
 
-/// sRGB samples of 8 or 16 bits to linear floats. Returns NULL when out of memory.
-static float* linearise(const void* samples, bool wide, size_t count)
+static vtResult failMemory(const char* name, int width, int height, vtError* error)
 {
-    float* values = malloc(count * sizeof *values);
-    if (values == NULL) {
-        return NULL;
+    return vtFail(error, vt_errorMemory, "no memory for the %d x %d pixels of picture '%s'; scale it down",
+                  width, height, name);
+}
+
+static vtResult checkSides(const char* name, int width, int height, vtError* error)
+{
+    if (width < 1 || height < 1 || width > VT_MAX_IMAGE_SIDE || height > VT_MAX_IMAGE_SIDE) {
+        return vtFail(error, vt_errorFormat,
+                      "picture '%s' is %d x %d pixels, but a side must be 1 to %d; scale it down", name,
+                      width, height, VT_MAX_IMAGE_SIDE);
     }
-    if (wide) {
-        const uint16_t* words = samples;
-        for (size_t i = 0; i < count; ++i) {
-            values[i] = vtSrgbToLinear((float)words[i] / 65535.0f);
-        }
-        return values;
+    return vtSucceed(error);
+}
+
+vtResult vtLinearise(const uint8_t* samples, int channels, const char* name, int width, int height,
+                     float** pixels, vtError* error)
+{
+    assert(samples != NULL && pixels != NULL && channels >= 3);
+    *pixels = NULL;
+    name = name != NULL ? name : "";
+    if (checkSides(name, width, height, error) != vt_ok) {
+        return vt_errorFormat;
+    }
+    const size_t count = (size_t)width * (size_t)height;
+    float* values = malloc(count * 3 * sizeof *values);
+    if (values == NULL) {
+        return failMemory(name, width, height, error);
     }
     float table[256];
     for (int i = 0; i < 256; ++i) {
         table[i] = vtSrgbToLinear((float)i / 255.0f);
     }
-    const uint8_t* octets = samples;
     for (size_t i = 0; i < count; ++i) {
-        values[i] = table[octets[i]];
+        for (int k = 0; k < 3; ++k) {
+            values[3 * i + (size_t)k] = table[samples[(size_t)channels * i + (size_t)k]];
+        }
     }
-    return values;
+    *pixels = values;
+    return vtSucceed(error);
 }
 
 static vtResult failDecode(const char* name, vtError* error)
@@ -87,6 +107,52 @@ static vtResult failDecode(const char* name, vtError* error)
                   "another format, so save it again as one of these",
                   name, reason != NULL ? reason : "unknown reason");
 }
+
+/// As stbi_loadf_from_memory, which would bring all conversions of the other formats: 2 KB of a page's wasm.
+static float* loadHdr(const uint8_t* bytes, int length, int* width, int* height)
+{
+    stbi__context context;
+    stbi__result_info info;
+    int channels = 0;
+    stbi__start_mem(&context, bytes, length);
+    return stbi__hdr_load(&context, width, height, &channels, 3, &info);
+}
+
+#ifdef VT_HDR_ONLY
+static vtResult decodeSrgb(const uint8_t* bytes, int length, const char* name, float** pixels, int* width,
+                           int* height, vtError* error)
+{
+    (void)bytes, (void)length, (void)pixels, (void)width, (void)height;
+    return failDecode(name, error);
+}
+#else
+/// PNG or JPEG of 8 or 16 bits.
+static vtResult decodeSrgb(const uint8_t* bytes, int length, const char* name, float** pixels, int* width,
+                           int* height, vtError* error)
+{
+    int channels = 0;
+    if (!stbi_is_16_bit_from_memory(bytes, length)) {
+        uint8_t* samples = stbi_load_from_memory(bytes, length, width, height, &channels, 3);
+        if (samples == NULL) {
+            return failDecode(name, error);
+        }
+        const vtResult result = vtLinearise(samples, 3, name, *width, *height, pixels, error);
+        stbi_image_free(samples);
+        return result;
+    }
+    uint16_t* samples = stbi_load_16_from_memory(bytes, length, width, height, &channels, 3);
+    if (samples == NULL) {
+        return failDecode(name, error);
+    }
+    const size_t count = (size_t)*width * (size_t)*height * 3;
+    *pixels = malloc(count * sizeof **pixels);
+    for (size_t i = 0; *pixels != NULL && i < count; ++i) {
+        (*pixels)[i] = vtSrgbToLinear((float)samples[i] / 65535.0f);
+    }
+    stbi_image_free(samples);
+    return *pixels != NULL ? vt_ok : failMemory(name, *width, *height, error);
+}
+#endif
 
 vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, float** pixels, int* width,
                              int* height, vtError* error)
@@ -106,34 +172,23 @@ vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, f
     if (!stbi_info_from_memory(bytes, length, &columns, &rows, &channels)) {
         return failDecode(name, error);
     }
-    if (columns < 1 || rows < 1 || columns > VT_MAX_IMAGE_SIDE || rows > VT_MAX_IMAGE_SIDE) {
-        return vtFail(error, vt_errorFormat,
-                      "picture '%s' is %d x %d pixels, but a side must be 1 to %d; scale it down", name,
-                      columns, rows, VT_MAX_IMAGE_SIDE);
+    if (checkSides(name, columns, rows, error) != vt_ok) {
+        return vt_errorFormat;
     }
 
     float* values = NULL;
     if (stbi_is_hdr_from_memory(bytes, length)) {
-        values = stbi_loadf_from_memory(bytes, length, &columns, &rows, &channels, 3);
+        values = loadHdr(bytes, length, &columns, &rows);
         if (values == NULL) {
             return failDecode(name, error);
         }
+        sanitise(values, (size_t)columns * (size_t)rows * 3);
     } else {
-        const bool wide = stbi_is_16_bit_from_memory(bytes, length);
-        void* samples = wide ? (void*)stbi_load_16_from_memory(bytes, length, &columns, &rows, &channels, 3)
-                             : (void*)stbi_load_from_memory(bytes, length, &columns, &rows, &channels, 3);
-        if (samples == NULL) {
-            return failDecode(name, error);
-        }
-        values = linearise(samples, wide, (size_t)columns * (size_t)rows * 3);
-        stbi_image_free(samples);
-        if (values == NULL) {
-            return vtFail(error, vt_errorMemory,
-                          "no memory for the %d x %d pixels of picture '%s'; scale it down", columns, rows,
-                          name);
+        const vtResult result = decodeSrgb(bytes, length, name, &values, &columns, &rows, error);
+        if (result != vt_ok) {
+            return result;
         }
     }
-    sanitise(values, (size_t)columns * (size_t)rows * 3);
     *pixels = values;
     *width = columns;
     *height = rows;

@@ -11,6 +11,12 @@
 float vtSrgbToLinear(float encoded);
 float vtLinearToSrgb(float linear);
 
+/// 8-bit sRGB samples, top row first, to 3 linear floats a pixel; of `channels` (3 or 4) the first three
+/// count. `name` goes into the error sentence. Fails with vt_errorFormat (a side out of range) or
+/// vt_errorMemory; then *pixels is NULL.
+vtResult vtLinearise(const uint8_t* samples, int channels, const char* name, int width, int height,
+                     float** pixels, vtError* error);
+
 /// Decodes PNG, JPEG (sRGB, converted to linear; alpha is dropped, grey is spread) or HDR (linear as it is)
 /// to 3 floats a pixel, top row first. Numbers are made usable: NaN and negative become 0, the rest is at
 /// most 65504, the largest half float. `name` goes into the error sentence.

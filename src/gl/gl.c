@@ -1,6 +1,6 @@
 #include "gl/gl.h"
 
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -9,10 +9,9 @@
 static bool isNewEnough(const char* version)
 {
     const char* embedded = strstr(version, "OpenGL ES ");
-    int major = 0, minor = 0;
-    if (sscanf(embedded != NULL ? embedded + 10 : version, "%d.%d", &major, &minor) != 2) {
-        return false;
-    }
+    char* end = NULL; // sscanf would read floats too: 6 KB of a page's compressed wasm
+    const long major = strtol(embedded != NULL ? embedded + 10 : version, &end, 10);
+    const long minor = *end == '.' ? strtol(end + 1, NULL, 10) : 0;
     return embedded != NULL ? major >= 3 : major * 10 + minor >= 33;
 }
 

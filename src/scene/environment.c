@@ -207,6 +207,19 @@ vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtE
     return result;
 }
 
+vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, const char* name,
+                                  vtEnvironment* environment, vtError* error)
+{
+    assert(environment != NULL);
+    *environment = (vtEnvironment){0};
+    float* pixels = NULL;
+    const vtResult result = vtLinearise(rgba, 4, name, width, height, &pixels, error);
+    if (result == vt_ok) {
+        *environment = (vtEnvironment){vt_environmentImage, pixels, width, height};
+    }
+    return result;
+}
+
 vtVec3 vtEnvironment_Sample(const vtEnvironment* environment, vtVec3 direction)
 {
     assert(environment != NULL);

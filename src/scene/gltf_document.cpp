@@ -28,16 +28,13 @@ struct stringstream {
         text += to_string(number);
         return *this;
     }
-    stringstream& operator<<(ostream& (*)(ostream&)) // endl
-    {
-        text += '\n';
-        return *this;
-    }
     string str() const
     {
         return text;
     }
 };
+
+constexpr char endl[] = "\n"; // the real one is a stream's
 } // namespace tinygltf::std
 
 #define JSON_NOEXCEPTION
@@ -116,7 +113,9 @@ static bool parseJson(Loader& loader, Bytes text, Json* document)
     while (text.size > 0 && text.data[text.size - 1] == 0) {
         --text.size; // some exporters pad with zeros instead of spaces
     }
-    *document = Json::parse(text.data, text.data + text.size, nullptr, false);
+    // As chars, as tinygltf parses them: another type would bring a second parser into the page's wasm.
+    const char* begin = (const char*)text.data;
+    *document = Json::parse(begin, begin + text.size, nullptr, false);
     if (!document->is_object()) {
         return loader.fail(vt_errorFormat, "its JSON is broken or cut off" GLTF_DAMAGED);
     }

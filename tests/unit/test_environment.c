@@ -148,6 +148,29 @@ static void environmentsLoadFromFiles(void** state)
     free(bytes);
 }
 
+static void decodedPixelsGiveWhatTheirFileGives(void** state)
+{
+    (void)state;
+    const uint8_t pixels[2 * 4] = {255, 128, 3, 255, 64, 200, 10, 0};
+    uint8_t* bytes = NULL;
+    size_t size = 0;
+    vtError error = {0};
+    assert_ok(vtEncodePng(pixels, 4, 2, 1, &bytes, &size, &error), error);
+    vtEnvironment file, decoded;
+    assert_ok(vtLoadEnvironment(bytes, size, "two.png", &file, &error), error);
+    assert_ok(vtCreateImageEnvironment(pixels, 2, 1, "two.png", &decoded, &error), error);
+    assert_int_equal(decoded.kind, vt_environmentImage);
+    assert_true(decoded.width == 2 && decoded.height == 1);
+    assert_memory_equal(file.pixels, decoded.pixels, 2 * 3 * sizeof(float));
+    vtDestroyEnvironment(&file);
+    vtDestroyEnvironment(&decoded);
+    free(bytes);
+    assert_int_equal(vtCreateImageEnvironment(pixels, 1, 20000, "tall.png", &decoded, &error),
+                     vt_errorFormat);
+    assert_non_null(strstr(error.message, "tall.png"));
+    assert_null(decoded.pixels);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -156,6 +179,7 @@ int main(void)
         cmocka_unit_test(namesMakeEnvironments),
         cmocka_unit_test(builtInRadianceIsUsable),
         cmocka_unit_test(environmentsLoadFromFiles),
+        cmocka_unit_test(decodedPixelsGiveWhatTheirFileGives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

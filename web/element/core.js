@@ -1,5 +1,6 @@
 // The compiled module, loaded once a page, and one Viewer (web/viewer.c) for each canvas.
 import createVitrine from '../vitrine-core.js';
+import { openInCore } from './picture.js';
 
 /** Browsers keep about 16 contexts; some are left to the rest of the page. */
 const mostContexts = 12;
@@ -114,12 +115,11 @@ export class Viewer {
     return this.#core.UTF8ToString(this.call(name, ...values));
   }
 
-  /** As attempt, for a call that takes the contents of a file over. */
-  attemptBytes(name, bytes, fileName) {
-    const place = this.#core._malloc(bytes.length || 1);
-    if (place === 0) return `${fileName}: too large for the memory of this page`;
-    this.#core.HEAPU8.set(bytes, place);
-    return this.attempt(name, place, bytes.length, fileName);
+  /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */
+  attemptFile(name, source) {
+    this.#core.GL.makeContextCurrent(this.#context);
+    const open = (call, ...values) => this.attempt(call, ...values, source.name);
+    return openInCore(this.#core, this.gl, name, source.contents, open) ?? `${source.name}: too large for the memory of this page`;
   }
 
   problem() {

@@ -1,5 +1,6 @@
 // The files of one element: fetched side by side, shown environment first, dropped where the wish has changed.
 import { Progress, builtIn, fetchSource } from './loading.js';
+import { decodePicture } from './picture.js';
 
 export class Loader {
   /** Of the model that is loading, or came last. @type {Progress|null} */
@@ -49,7 +50,10 @@ export class Loader {
       progress?.expect(kind);
       const known = builtIn(kind, url);
       if (known) progress?.bytes(kind, 1, 1);
-      return known ?? (await fetchSource(url, signal, (received, total) => progress?.bytes(kind, received, total)));
+      if (known) return known;
+      const source = await fetchSource(url, signal, (received, total) => progress?.bytes(kind, received, total));
+      if (kind === 'environment') source.contents = await decodePicture(source.contents);
+      return source;
     } catch (reason) {
       if (!signal.aborted) this.#told.failed(kind, reason);
       return null;

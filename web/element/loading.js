@@ -4,15 +4,15 @@ import { environments, shapes } from './attributes.js';
 /**
  * What a model or an environment is made from; kept, so that a restored context can have it again.
  * @typedef {object} Source
- * @property {string} url as in the attribute; a built-in name where bytes is null
+ * @property {string} url as in the attribute; a built-in name where contents is null
  * @property {string} name for sentences
- * @property {Uint8Array|null} bytes
+ * @property {Uint8Array|ImageBitmap|null} contents
  */
 
 /** The built-in of that name, or null. @returns {Source|null} */
 export function builtIn(kind, url) {
   const names = kind === 'model' ? shapes : environments;
-  return names.includes(url) ? { url, name: url, bytes: null } : null;
+  return names.includes(url) ? { url, name: url, contents: null } : null;
 }
 
 /**
@@ -54,7 +54,7 @@ export async function fetchSource(url, signal, onBytes) {
     bytes.set(chunk, place);
     place += chunk.length;
   }
-  return { url, name, bytes };
+  return { url, name, contents: bytes };
 }
 
 /** One number from 0 to 1 for all files of a load; it never goes back. */

@@ -186,9 +186,7 @@ export class Stage {
     this.#fileIor = 1.5; // unless the file says otherwise
     const [openName, setName] = kind === 'model' ? ['OpenModel', 'SetShape'] : ['OpenEnvironment', 'SetEnvironment'];
     if (kind === 'model') this.#applyGlass({ ...this.glass, technique: 'single', ior: 1.5, output: 'picture' });
-    const problem = source.bytes === null
-      ? viewer.attempt(setName, source.name)
-      : viewer.attemptBytes(openName, source.bytes, source.name);
+    const problem = source.contents === null ? viewer.attempt(setName, source.name) : viewer.attemptFile(openName, source);
     const isModel = kind === 'model' && !problem;
     this.#fileIor = isModel ? viewer.info().ior : oldIor;
     if (isModel) this.#framedFor = '';

@@ -1,0 +1,49 @@
+// PNG and JPEG, which the browser decodes; the core reads Radiance HDR only, and so is 12 KB smaller.
+
+/**
+ * What the core opens as environment: the decoded picture, or the bytes as they are where they hold none that the
+ * browser knows, so that the core says what is wrong.
+ * @param {Uint8Array} bytes
+ * @returns {Promise<ImageBitmap|Uint8Array>}
+ */
+export async function decodePicture(bytes) {
+  if (bytes[0] === 0x23 && bytes[1] === 0x3f) return bytes; // "#?" of Radiance HDR
+  const asInTheFile = { colorSpaceConversion: 'none', premultiplyAlpha: 'none' };
+  return createImageBitmap(new Blob([bytes]), asInTheFile).catch(() => bytes);
+}
+
+/**
+ * Puts a file into the core's memory and opens it there.
+ * @param core the compiled module
+ * @param {WebGL2RenderingContext} gl
+ * @param {string} name of the call of web/viewer.c, for bytes
+ * @param {Uint8Array|ImageBitmap} contents
+ * @param {(name: string, ...values: number[]) => unknown} open makes the call
+ * @returns what `open` returns; null where memory is out
+ */
+export function openInCore(core, gl, name, contents, open) {
+  const isPicture = contents instanceof ImageBitmap;
+  const size = isPicture ? 4 * contents.width * contents.height : contents.length;
+  const place = core._malloc(size || 1);
+  if (place === 0) return null;
+  if (!isPicture) {
+    core.HEAPU8.set(contents, place);
+    return open(name, place, size);
+  }
+  readPicture(gl, contents, core.HEAPU8, place);
+  return open('OpenPicture', place, contents.width, contents.height);
+}
+
+/** Its RGBA bytes, untouched by alpha, which a 2D canvas would multiply in. */
+function readPicture(gl, picture, heap, place) {
+  const { width, height } = picture;
+  if (Math.max(width, height) > gl.getParameter(gl.MAX_TEXTURE_SIZE)) return; // the core refuses it
+  const texture = gl.createTexture(), framebuffer = gl.createFramebuffer();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, picture);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, heap, place);
+  gl.deleteFramebuffer(framebuffer);
+  gl.deleteTexture(texture);
+}
