@@ -19,6 +19,7 @@ vtFrame vtDefaultFrame(void)
         .maxEvents = 8,
         .width = 512,
         .height = 512,
+        .samples = 1,
     };
 }
 
@@ -62,6 +63,8 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         {"wall-thickness", frame->wallThickness, 0, 1e6},
         {"back-surface", frame->backSurface, vt_backSecond, vt_backFarthest},
         {"exposure", frame->exposure, -20, 20},
+        {"samples", frame->samples, 1, VT_MAX_SAMPLES},
+        {"first-sample", frame->firstSample, 0, 1000000},
         {"width", frame->width, 1, 16384},
         {"height", frame->height, 1, 16384},
         {"layer-size", frame->layerSize, frame->layerSize == 0 ? 0 : 16, 8192},
