@@ -147,6 +147,7 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->maxEvents = options->maxEvents;
     frame->layerSize = options->layerSize;
     frame->exposure = options->exposure;
+    frame->samples = isReference ? 1 : options->samples; // the reference takes more
     frame->transmittance = options->transmittance;
     frame->maxTransmittance = options->maxTransmittance;
     frame->minTransmittance = options->minTransmittance;
