@@ -23,7 +23,7 @@ EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height)
         viewer->frame.width = width;
         viewer->frame.height = height;
         viewer->sample = VT_MAX_SAMPLES; // nothing to draw yet
-        vtRendererDef def = {NULL}; // on the web GL is linked
+        vtRendererDef def = {NULL};      // on the web GL is linked
         vtCreateRenderer(&def, &viewer->renderer, &viewer->error);
     }
     return viewer;
@@ -139,8 +139,7 @@ static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
 /// Technique by its id and the settings of the glass, ranges as in vtFrame; `output` is a vtOutput.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, float ior,
                                                    int layers, int steps, int maxEvents, int output,
-                                                   int layer, float exposure, bool transparent,
-                                                   int samples)
+                                                   int layer, float exposure, bool transparent, int samples)
 {
     vtFrame frame = viewer->frame;
     frame.technique = vtFindTechnique(technique);
@@ -213,16 +212,15 @@ EMSCRIPTEN_KEEPALIVE int vtViewer_Tick(vtViewer* viewer)
     return 1;
 }
 
-/// The present view and settings at that size, of at least 16 samples (or all, if those are fewer): 4 * width * height bytes, top row first, valid until the
-/// next call; NULL on failure, see vtViewer_Error.
+/// The present view and settings at that size, of at least 16 samples (or all, if those are fewer):
+/// 4 * width * height bytes, top row first, valid until the next call; NULL on failure, see vtViewer_Error.
 EMSCRIPTEN_KEEPALIVE const uint8_t* vtViewer_Image(vtViewer* viewer, int width, int height)
 {
     vtFrame frame = viewer->frame;
     frame.width = width;
     frame.height = height;
     // The canvas's own samples are gone on with; more than some are not worth the wait.
-    const bool isCanvas =
-        !viewer->changed && width == viewer->frame.width && height == viewer->frame.height;
+    const bool isCanvas = !viewer->changed && width == viewer->frame.width && height == viewer->frame.height;
     const int enough = isCanvas && viewer->sample > 16 ? viewer->sample : 16;
     frame.samples = frame.samples < enough ? frame.samples : enough;
     if (isCanvas && frame.samples > 1) {

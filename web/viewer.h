@@ -20,5 +20,6 @@ typedef struct vtViewer {
 vtViewer* vtViewer_Create(int width, int height);
 void vtViewer_Destroy(vtViewer* viewer);
 
-/// Draws the canvas if anything changed, else adds the next sample until all are there. 1: drawn, 0: nothing to do, -1: failed, see vtViewer_Error.
+/// Draws the canvas if anything changed, else adds the next sample until all are there. 1: drawn, 0: nothing
+/// to do, -1: failed, see vtViewer_Error.
 int vtViewer_Tick(vtViewer* viewer);

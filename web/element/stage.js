@@ -196,13 +196,10 @@ export class Stage {
     const isModel = kind === 'model' && !problem;
     this.#fileIor = isModel ? viewer.info().ior : oldIor;
     if (isModel) this.#framedFor = '';
+    if (!problem) this.scene[kind] = source;
     this.invalidate(); // after a failure too: the glass was changed above
-    if (problem) {
-      this.#told.rejected(kind, problem);
-      return;
-    }
-    this.scene[kind] = source;
-    if (isNew) this.#told.shown(kind);
+    if (problem) this.#told.rejected(kind, problem);
+    else if (isNew) this.#told.shown(kind);
   }
 
   #applyGlass(glass) {
