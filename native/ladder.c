@@ -65,7 +65,12 @@ static vtResult climb(vtSession* session, Ladder* ladder, int index, float* dire
         return vtFail(error, vt_errorMemory, "ladder: out of memory for %d x %d", frame->width,
                       frame->height);
     }
+    vtFrame centre = *frame; // what the reference's directions are of
+    centre.samples = 1;
     vtResult result = vtRenderer_DrawImage(session->renderer, frame, rung->pixels, error);
+    if (result == vt_ok && frame->samples > 1) {
+        result = vtRenderer_DrawImage(session->renderer, &centre, NULL, error);
+    }
     if (result == vt_ok) {
         result = vtRenderer_ReadDirections(session->renderer, directions, error);
     }
@@ -97,6 +102,9 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
     }
     if (result == vt_ok) {
         double times[rungCount];
+        for (int i = 0; i < rungCount; ++i) {
+            ladder->frames[i].samples = 1; // times are those of one sample, as the reference's is
+        }
         result = vtTimeFrames(session->renderer, ladder->frames, rungCount, reference, times, &ladder->traced,
                               error);
         for (int i = 0; i < rungCount && result == vt_ok; ++i) {

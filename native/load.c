@@ -155,6 +155,7 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     }
     frame->layerSource = fromEye ? vt_layersFromEye : vt_layersFromCube;
     frame->exposure = options->exposure;
+    frame->samples = isReference ? 1 : options->samples; // the reference takes more
     frame->transmittance = options->transmittance;
     frame->maxTransmittance = options->maxTransmittance;
     frame->minTransmittance = options->minTransmittance;

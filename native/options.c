@@ -74,8 +74,10 @@ static const Option table[] = {
      "reference: with Fresnel reflection, by chance for each sample", RENDER},
     {"events", 0, kindText, AT(events), 0, 0, "FILE",
      "reference: number of events of each pixel's path, grey PNG, for 'compare --events'", RENDER},
-    {"samples", 0, kindInteger, AT(samples), 1, 65536, "N", "reference: paths a pixel (1, its centre)",
-     RENDER},
+    {"samples", 0, kindInteger, AT(samples), 1, 65536, "N",
+     "a pixel, for smooth edges; more than 4096 the reference only (1, its centre)", RENDER | LADDER},
+    {"samples", 0, kindInteger, AT(samples), 1, VT_MAX_SAMPLES, "N",
+     "a pixel, one a frame while the view stands still (64)", VIEW},
     {"reference", 0, kindText, AT(reference), 0, 0, "FILE", "fail where the picture differs from this one",
      RENDER},
     {"reference-threshold", 0, kindNumber, AT(referenceThreshold), 0, 1, "T",
@@ -180,7 +182,7 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         .maxTransmittance = frame.maxTransmittance,
         .minTransmittance = frame.minTransmittance,
         .power = frame.power,
-        .samples = 1,
+        .samples = command == vt_commandView ? 64 : 1,
         .referenceThreshold = 0.05f,
     };
 

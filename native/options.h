@@ -26,7 +26,7 @@ typedef struct vtOptions {
     bool hasCamera, hasTarget;
     int size[2];
     int layers, steps, refine, maxEvents, layerSize, cubeSize, topLevel;
-    int samples; ///< of the reference, a pixel
+    int samples; ///< a pixel
     float referenceThreshold;
     int frames; ///< view: close after so many, 0: never
     bool fresnel, analysis, verbose, help;

@@ -11,15 +11,16 @@ vtResult vtCreateReference(const vtMesh* mesh, vtReference** reference, vtError*
 /// Safe on NULL.
 void vtDestroyReference(vtReference* reference);
 
-#define VT_MAX_SAMPLES 65536 ///< per pixel
+#define VT_MAX_TRACED_SAMPLES 65536 ///< per pixel
 #define VT_MAX_THREADS 1024
 
 typedef struct vtReferenceDef {
-    const vtFrame* frame; ///< view, ior, maxEvents, width and height are used
+    const vtFrame* frame; ///< view, ior, maxEvents, exposure, width and height are used
     /// NULL: directions, events, states and reflections only.
     const vtEnvironment* environment;
-    /// Paths a pixel for the radiance, 1 to VT_MAX_SAMPLES; 0 and 1: one through the pixel's centre, more:
-    /// spread over the pixel (box filter), always the same ones.
+    /// Paths a pixel for the radiance, 1 to VT_MAX_TRACED_SAMPLES; 0 and 1: one through the pixel's centre,
+    /// more: spread over the pixel as vtFrame.samples are. Each then counts no more than a display can show
+    /// (1), as there; not with Fresnel reflection.
     int samples;
     /// Unpolarised Fresnel reflection at every event, the first surface's included, chosen by chance for each
     /// path. Concerns the radiance only.
@@ -38,8 +39,8 @@ typedef struct vtReferenceImage {
     uint8_t* events;      ///< surfaces met; 0 for background
     uint8_t* states;      ///< VT_PATH_BACKGROUND, VT_PATH_EXITED or VT_PATH_LOST
     uint8_t* reflections; ///< 1 where total internal reflection took part
-    float* radiance;      ///< 3 a pixel, linear, mean over the samples; a lost path shows the environment in
-                          ///< its last direction. NULL without an environment.
+    float* radiance;      ///< 3 a pixel, linear, after exposure, mean over the samples; a lost path shows
+                          ///< the environment in its last direction. NULL without an environment.
 } vtReferenceImage;
 
 /// Traces a picture. Fails with vt_errorArgument for a value out of range and with vt_errorMemory; then

@@ -25,6 +25,7 @@ typedef struct Job {
     vtCameraFrame camera;
     float tangentX, tangentY; ///< of half the field of view
     int samples;
+    float exposure; ///< factor
     int tileColumns, tileCount;
     atomic_int nextTile;
 } Job;
@@ -76,7 +77,12 @@ static void storePath(vtReferenceImage* image, size_t pixel, const vtReferencePa
 
 static void addRadiance(const Job* job, size_t pixel, vtVec3 direction)
 {
-    const vtVec3 light = vtEnvironment_Sample(job->def->environment, direction);
+    vtVec3 light = vtScale(vtEnvironment_Sample(job->def->environment, direction), job->exposure);
+    // As add_sample.frag does, and for its reason. But what a path meets by chance is no part of the pixel:
+    // of a lamp that is reflected by one path in twenty, all light must count.
+    if (job->samples > 1 && !job->def->fresnel) {
+        light = (vtVec3){fminf(light.x, 1.0f), fminf(light.y, 1.0f), fminf(light.z, 1.0f)};
+    }
     const float share = 1.0f / (float)job->samples;
     float* sum = job->image->radiance + 3 * pixel;
     sum[0] += light.x * share;
@@ -112,28 +118,14 @@ static void traceCentres(const Job* job, const Tile* tile)
 
 // ----------------------------------------------------------------------------------------------- samples
 
-/// The base-2 digits of i mirrored at the point (van der Corput): 0, 1/2, 1/4, 3/4, ...
-static float mirrorDigits(uint32_t i)
-{
-    float result = 0.0f;
-    for (float digit = 0.5f; i != 0; i >>= 1, digit *= 0.5f) {
-        result += (i & 1u) != 0 ? digit : 0.0f;
-    }
-    return result;
-}
-
-/// Sample number `index` of a pixel. Of n samples each has one of n columns and, for n a power of two, one
-/// of n rows to itself (Hammersley's points), at a random place of the cell.
+/// Sample number `index` of a pixel, where the renderer has it.
 static vtReferencePath makeSample(const Job* job, int column, int row, int index)
 {
-    uint32_t random = vtHash((uint32_t)pixelIndex(job, column, row) ^ vtHash((uint32_t)index));
-    float x = 0.5f, y = 0.5f;
-    if (job->samples > 1) {
-        const float cell = 1.0f / (float)job->samples;
-        x = ((float)index + vtNextRandom(&random)) * cell;
-        y = vtFract(mirrorDigits((uint32_t)index) + vtNextRandom(&random) * cell);
-    }
-    return vtMakePath(job->camera.eye, eyeDirection(job, (float)column + x, (float)row + y), random);
+    const uint32_t random = vtHash((uint32_t)pixelIndex(job, column, row) ^ vtHash((uint32_t)index));
+    float x, y;
+    vtPixelSample(index, &x, &y);
+    const vtVec3 direction = eyeDirection(job, (float)column + 0.5f + x, (float)row + 0.5f - y);
+    return vtMakePath(job->camera.eye, direction, random);
 }
 
 static void traceSamples(const Job* job, const Tile* tile, int index)
@@ -203,9 +195,9 @@ static void runJob(Job* job)
 
 static vtResult checkDef(const vtReferenceDef* def, vtError* error)
 {
-    if (def->samples < 0 || def->samples > VT_MAX_SAMPLES) {
+    if (def->samples < 0 || def->samples > VT_MAX_TRACED_SAMPLES) {
         return vtFail(error, vt_errorArgument, "samples is %d; it must be 0 to %d", def->samples,
-                      VT_MAX_SAMPLES);
+                      VT_MAX_TRACED_SAMPLES);
     }
     if (def->threads < 0 || def->threads > VT_MAX_THREADS) {
         return vtFail(error, vt_errorArgument, "threads is %d; it must be 0 to %d", def->threads,
@@ -259,6 +251,7 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
         .tangentX = tangent * (float)frame->width / (float)frame->height,
         .tangentY = tangent,
         .samples = def->samples > 1 ? def->samples : 1,
+        .exposure = exp2f(frame->exposure),
         .tileColumns = tileColumns,
         .tileCount = tileColumns * tileRows,
     };

@@ -11,6 +11,7 @@
 #include "metrics_map.h"
 #include "session.h"
 #include "technique.h"
+#include "timing.h"
 #include "trace.h"
 
 /// A file to be written once everything has been drawn.
@@ -25,7 +26,19 @@ enum { outputPicture, outputDirections, outputSheet, outputEvents, outputCount }
 static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, uint8_t* pixels, Output* output,
                             vtError* error)
 {
-    vtResult result = vtRenderer_DrawImage(renderer, frame, pixels, error);
+    const bool showsProgress = frame->samples > 1 && isatty(STDERR_FILENO);
+    const double start = vtNow();
+    vtResult result = vt_ok;
+    // One sample at a time, each finished before the next.
+    vtFrame part = *frame;
+    part.samples = 1;
+    for (; part.firstSample < frame->samples && result == vt_ok; ++part.firstSample) {
+        bool last = part.firstSample == frame->samples - 1;
+        result = vtRenderer_DrawImage(renderer, &part, last ? pixels : NULL, error);
+        if (showsProgress) {
+            vtShowProgress("drawing", (float)(part.firstSample + 1) / (float)frame->samples, start);
+        }
+    }
     if (result == vt_ok) {
         result = vtEncodePng(pixels, 4, frame->width, frame->height, &output->bytes, &output->size, error);
     }
@@ -39,7 +52,13 @@ static vtResult readDirections(vtRenderer* renderer, const vtFrame* frame, Outpu
         return vtFail(error, vt_errorMemory, "directions: out of memory for %d x %d", frame->width,
                       frame->height);
     }
-    vtResult result = vtRenderer_ReadDirections(renderer, directions, error);
+    // Those of the pixel's centre, as the reference has them.
+    vtFrame centre = *frame;
+    centre.samples = 1;
+    vtResult result = frame->samples > 1 ? vtRenderer_DrawImage(renderer, &centre, NULL, error) : vt_ok;
+    if (result == vt_ok) {
+        result = vtRenderer_ReadDirections(renderer, directions, error);
+    }
     if (result == vt_ok) {
         result = vtEncodePfm(directions, frame->width, frame->height, &output->bytes, &output->size, error);
     }

@@ -1,5 +1,6 @@
 #include "timing.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -10,6 +11,24 @@ double vtNow(void)
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
     return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
+}
+
+void vtShowProgress(const char* doing, float share, double start)
+{
+    double spent = 1e-3 * (vtNow() - start);
+    if (spent < 1.0) {
+        return; // short work needs no progress
+    }
+    char bar[41];
+    for (int i = 0; i < 40; ++i) {
+        bar[i] = (float)i < 40.0f * share ? '#' : '.';
+    }
+    bar[40] = '\0';
+    fprintf(stderr, "\r%s %s %3.0f %%, %.0f s left ", doing, bar, 100.0 * (double)share,
+            share > 0.0f ? spent * (1.0 / (double)share - 1.0) : 0.0);
+    if (share >= 1.0f) {
+        fputc('\n', stderr);
+    }
 }
 
 static int compareDoubles(const void* a, const void* b)

@@ -15,21 +15,7 @@ bool vtIsReference(const vtOptions* options)
 
 static void showProgress(float share, void* userData)
 {
-    const double* start = userData;
-    double spent = 1e-3 * (vtNow() - *start);
-    if (spent < 1.0) {
-        return; // short work needs no progress
-    }
-    char bar[41];
-    for (int i = 0; i < 40; ++i) {
-        bar[i] = (float)i < 40.0f * share ? '#' : '.';
-    }
-    bar[40] = '\0';
-    fprintf(stderr, "\rtracing %s %3.0f %%, %.0f s left ", bar, 100.0 * (double)share,
-            share > 0.0f ? spent * (1.0 / (double)share - 1.0) : 0.0);
-    if (share >= 1.0f) {
-        fputc('\n', stderr);
-    }
+    vtShowProgress("tracing", share, *(const double*)userData);
 }
 
 vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame,

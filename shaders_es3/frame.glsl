@@ -9,7 +9,7 @@ layout(std140) uniform Frame
     vec4 u_layerDepth;
     vec4 u_boundsMin; // the object's box, world
     vec4 u_boundsMax;
-    vec4 u_optics;   // index of refraction, transmittance, exposure factor, 0
+    vec4 u_optics;   // index of refraction, transmittance, exposure factor, samples so far
     vec4 u_kay;      // largest and smallest transmittance, power, wall thickness
     ivec4 u_search;  // layers, linear steps, binary steps, events
     ivec4 u_size;    // picture width, height, layer width, height

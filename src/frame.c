@@ -21,6 +21,7 @@ vtFrame vtDefaultFrame(void)
         .maxEvents = 8,
         .width = 512,
         .height = 512,
+        .samples = 1,
     };
 }
 
@@ -67,6 +68,8 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         {"cube-size", frame->cubeSize, 32, 1024},
         {"top-level", frame->topLevel, 0, VT_MAX_CUBE_LEVELS - 1},
         {"exposure", frame->exposure, -20, 20},
+        {"samples", frame->samples, 1, VT_MAX_SAMPLES},
+        {"first-sample", frame->firstSample, 0, 1000000},
         {"width", frame->width, 1, 16384},
         {"height", frame->height, 1, 16384},
         {"layer-size", frame->layerSize, frame->layerSize == 0 ? 0 : 16, 8192},

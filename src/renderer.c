@@ -1,4 +1,5 @@
-// The whole of a frame, in order: surface, peel, merge, refract, present. Each pass reads the targets of
+// The whole of a frame, in order: surface, peel, merge, refract, present; with several samples a pixel,
+// accumulate in place of present. Each pass reads the targets of
 // those before it and writes its own; offscreen, window and canvas differ only in the framebuffer that
 // present draws to.
 #include <assert.h>
@@ -8,6 +9,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "gl/uniforms.h"
+#include "passes/accumulate.h"
 #include "passes/cube.h"
 #include "passes/merge.h"
 #include "passes/peel.h"
@@ -27,12 +29,18 @@ struct vtRenderer {
     vtCubePass cube;
     vtRefractPass refract;
     vtPresentPass present;
+    vtAccumulatePass accumulate;
     // The scene.
     vtMeshBuffer mesh;
     vtVec3 boundsMin, boundsMax;
     vtCubeFrame cubeFrame;
     bool cubeDrawn; // of this mesh
     vtEnvironmentKind environment;
+    // What a frame has to agree with to go on with the samples of the one before.
+    vtFrameUniforms uniforms; // of the pixel's centre
+    vtTechnique technique;
+    vtBackSurface backSurface;
+    int sampleEnd; // the first sample not drawn yet; 0: nothing to go on with
     // vtRenderer_DrawImage draws into this.
     GLuint imageFramebuffer;
     vtTexture image;
@@ -99,6 +107,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtCubePass_Destroy(&renderer->cube, gl);
     vtRefractPass_Destroy(&renderer->refract, gl);
     vtPresentPass_Destroy(&renderer->present, gl);
+    vtAccumulatePass_Destroy(&renderer->accumulate, gl);
     vtMeshBuffer_Destroy(&renderer->mesh, gl);
     vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
     vtTexture_Destroy(&renderer->image, gl);
@@ -116,6 +125,7 @@ vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* e
     }
     vtMeshBuffer_Destroy(&renderer->mesh, &renderer->gl);
     renderer->mesh = fresh;
+    renderer->sampleEnd = 0;
     renderer->boundsMin = mesh->boundsMin;
     renderer->boundsMax = mesh->boundsMax;
     renderer->cubeFrame = vtFitCube(mesh);
@@ -128,6 +138,7 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
     vtResult result = vtPresentPass_SetEnvironment(&renderer->present, &renderer->gl, environment, error);
     if (result == vt_ok) {
         renderer->environment = environment->kind;
+        renderer->sampleEnd = 0;
     }
     return result;
 }
@@ -246,10 +257,10 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     return result;
 }
 
-/// Works out the frame's numbers, sizes every target and uploads the uniform block.
-static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtError* error)
+/// Works out the frame's numbers and sizes every target.
+static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtFrameUniforms* uniforms,
+                             vtError* error)
 {
-    const vtGL* gl = &renderer->gl;
     const vtVec3 low = renderer->boundsMin, high = renderer->boundsMax;
     float aspect = (float)frame->width / (float)frame->height;
     vtFrustum picture = vtMakePictureFrustum(&frame->view, aspect, low, high);
@@ -267,7 +278,7 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtError
     vtVec3 extent = vtSub(high, low);
     float wall = frame->wallThickness > 0.0f ? frame->wallThickness
                                              : 0.06f * fmaxf(extent.x, fmaxf(extent.y, extent.z));
-    vtFrameUniforms uniforms = {
+    *uniforms = (vtFrameUniforms){
         .optics = {frame->ior, frame->transmittance, exp2f(frame->exposure)},
         .kay = {frame->maxTransmittance, frame->minTransmittance, frame->power, wall},
         .search = {vtFrame_LayerCount(frame), frame->steps, frame->refine, frame->maxEvents},
@@ -276,19 +287,41 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtError
                  frame->topLevel},
         .output = {frame->output, frame->layer, renderer->environment, frame->transparentBackground},
     };
-    setCamera(&uniforms, &frame->view);
-    setCube(&uniforms, frame, &renderer->cubeFrame);
+    setCamera(uniforms, &frame->view);
+    setCube(uniforms, frame, &renderer->cubeFrame);
     if (frame->layerSource == vt_layersFromEye) {
         vtFrustum fitted = vtMakeLayerFrustum(&frame->view, low, high);
-        setEyeLayers(&uniforms, &fitted);
+        setEyeLayers(uniforms, &fitted);
     }
-    setFrustum(uniforms.pictureFrustum, uniforms.pictureDepth, &picture);
-    setFrustum(uniforms.layerFrustum, uniforms.layerDepth, &layers);
-    setVec4(uniforms.boundsMin, low.x, low.y, low.z, 0.0f);
-    setVec4(uniforms.boundsMax, high.x, high.y, high.z, 0.0f);
+    setFrustum(uniforms->pictureFrustum, uniforms->pictureDepth, &picture);
+    setFrustum(uniforms->layerFrustum, uniforms->layerDepth, &layers);
+    setVec4(uniforms->boundsMin, low.x, low.y, low.z, 0.0f);
+    setVec4(uniforms->boundsMax, high.x, high.y, high.z, 0.0f);
+    return vtCheckGL(&renderer->gl, "preparing the frame", error);
+}
+
+static void shiftFrustum(float* tangents, float x, float y, const int32_t* size)
+{
+    const float dx = x * (tangents[2] - tangents[0]) / (float)size[0];
+    const float dy = y * (tangents[3] - tangents[1]) / (float)size[1];
+    setVec4(tangents, tangents[0] + dx, tangents[1] + dy, tangents[2] + dx, tangents[3] + dy);
+}
+
+/// Uploads the uniform block of one sample, the picture's frustum moved to it; `count` samples are in the sum
+/// with it.
+static void uploadSample(const vtRenderer* renderer, int sample, int count)
+{
+    const vtGL* gl = &renderer->gl;
+    vtFrameUniforms uniforms = renderer->uniforms;
+    float x, y;
+    vtPixelSample(sample, &x, &y);
+    shiftFrustum(uniforms.pictureFrustum, x, y, uniforms.size);
+    if (vtTechnique_Row(renderer->technique)->layerSpace == vt_layersOfPicture) {
+        shiftFrustum(uniforms.layerFrustum, x, y, uniforms.size + 2);
+    }
+    uniforms.optics[3] = (float)count;
     gl->BindBufferBase(GL_UNIFORM_BUFFER, VT_FRAME_BINDING, renderer->uniformBuffer);
     gl->BufferSubData(GL_UNIFORM_BUFFER, 0, sizeof uniforms, &uniforms);
-    return vtCheckGL(gl, "preparing the frame", error);
 }
 
 static void resetState(const vtGL* gl)
@@ -302,6 +335,94 @@ static void resetState(const vtGL* gl)
     gl->DepthFunc(GL_LESS);
     gl->DepthMask(GL_TRUE);
     gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+/// Everything up to the paths, with the uniform block that was uploaded.
+static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    if (row->surface) {
+        vtSurfacePass_Draw(&renderer->surface, gl, &renderer->mesh, row->innerDistances);
+    }
+    if (layersToo && drawsFarthest(frame)) {
+        vtPeelPass_DrawFarthest(&renderer->peel, gl, &renderer->mesh);
+    } else if (layersToo && row->layers != 0) {
+        vtPeelPass_Draw(&renderer->peel, gl, &renderer->mesh);
+    }
+    gl->BindVertexArray(renderer->emptyVertexArray);
+    const bool fromEye = frame->layerSource == vt_layersFromEye;
+    if (row->cube && (fromEye ? layersToo : !renderer->cubeDrawn)) {
+        vtCubePass_Draw(&renderer->cube, gl, &renderer->mesh);
+        renderer->cubeDrawn = !fromEye;
+    }
+    if (layersToo && row->merge) {
+        vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
+    }
+    vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
+                       &(vtRefractInputs){.surfaceDepth = &renderer->surface.depth,
+                                          .surfaceNormals = &renderer->surface.normals,
+                                          .innerDistances = &renderer->surface.distances,
+                                          .layerDepths = &renderer->peel.depths,
+                                          .layerNormals = &renderer->peel.normals,
+                                          .mergedDepths = &renderer->merge.depths,
+                                          .cubeSurfaces = &renderer->cube.surfaces,
+                                          .cubeTriangles = &renderer->cube.triangles,
+                                          .intervals = &renderer->cube.intervals,
+                                          .triangles = &renderer->mesh.triangles});
+}
+
+static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
+{
+    const vtGL* gl = &renderer->gl;
+    uploadSample(renderer, 0, 1);
+    drawPaths(renderer, frame, true);
+    vtPresentPass_Draw(&renderer->present, gl,
+                       &(vtPresentInputs){.paths = &renderer->refract.paths,
+                                          .light = &renderer->refract.light,
+                                          .layerDepths = &renderer->peel.depths,
+                                          .layerNormals = &renderer->peel.normals},
+                       frame->framebuffer, frame->width, frame->height);
+    renderer->accumulate.count = 0;
+    renderer->sampleEnd = frame->output == vt_outputPicture;
+}
+
+static void addSample(vtRenderer* renderer)
+{
+    vtAccumulatePass_Add(&renderer->accumulate, &renderer->gl, &renderer->refract.paths,
+                         &renderer->refract.light, &renderer->present.environment);
+}
+
+/// `sampleEnd`: of the frame before, if this one goes on with it, else 0.
+static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int sampleEnd, vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    vtAccumulatePass* accumulate = &renderer->accumulate;
+    vtResult result = vtAccumulatePass_Prepare(accumulate, gl, frame->width, frame->height, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    gl->BindVertexArray(renderer->emptyVertexArray);
+    if (sampleEnd == 0) {
+        accumulate->count = 0;
+    } else if (accumulate->count == 0) { // sample 0 was drawn straight, and its paths are still there
+        uploadSample(renderer, 0, 1);
+        addSample(renderer);
+    }
+    bool layersToo = sampleEnd == 0;
+    const int end = frame->firstSample + frame->samples;
+    for (int i = frame->firstSample > sampleEnd ? frame->firstSample : sampleEnd; i < end; ++i) {
+        uploadSample(renderer, i, accumulate->count + 1);
+        drawPaths(renderer, frame, layersToo);
+        addSample(renderer);
+        // Fitted to the object, the layers stay the same for every sample: a third less time, and 0.2 to 0.4
+        // dB further from the reference than with layers that move too (knot, bunny, 16 samples).
+        layersToo = vtTechnique_Row(frame->technique)->layerSpace == vt_layersOfPicture;
+        sampleEnd = i + 1;
+    }
+    vtAccumulatePass_Show(accumulate, gl, frame->framebuffer);
+    renderer->sampleEnd = sampleEnd;
+    return vt_ok;
 }
 
 vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error)
@@ -319,47 +440,28 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* er
             "technique '%s' needs inner distances; call vtComputeInnerDistances before vtRenderer_SetMesh",
             row->info.id);
     }
-    result = prepareFrame(renderer, frame, error);
+    vtFrameUniforms uniforms;
+    const bool sameRest =
+        renderer->technique == frame->technique && renderer->backSurface == frame->backSurface;
+    const int sampleEnd = frame->firstSample > 0 && sameRest ? renderer->sampleEnd : 0;
+    renderer->sampleEnd = 0; // should something fail
+    result = prepareFrame(renderer, frame, &uniforms, error);
     if (result != vt_ok) {
         return result;
     }
+    const bool goesOn = memcmp(&uniforms, &renderer->uniforms, sizeof uniforms) == 0;
+    renderer->uniforms = uniforms;
+    renderer->technique = frame->technique;
+    renderer->backSurface = frame->backSurface;
 
     resetState(gl);
-    if (row->surface) {
-        vtSurfacePass_Draw(&renderer->surface, gl, &renderer->mesh, row->innerDistances);
+    if (frame->output != vt_outputPicture || frame->firstSample + frame->samples == 1) {
+        drawStraight(renderer, frame);
+    } else {
+        result = drawSamples(renderer, frame, goesOn ? sampleEnd : 0, error);
     }
-    if (drawsFarthest(frame)) {
-        vtPeelPass_DrawFarthest(&renderer->peel, gl, &renderer->mesh);
-    } else if (row->layers != 0) {
-        vtPeelPass_Draw(&renderer->peel, gl, &renderer->mesh);
-    }
-    gl->BindVertexArray(renderer->emptyVertexArray);
-    if (row->cube && !renderer->cubeDrawn) {
-        vtCubePass_Draw(&renderer->cube, gl, &renderer->mesh);
-        renderer->cubeDrawn = frame->layerSource == vt_layersFromCube;
-    }
-    if (row->merge) {
-        vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
-    }
-    vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
-                       &(vtRefractInputs){.surfaceDepth = &renderer->surface.depth,
-                                          .surfaceNormals = &renderer->surface.normals,
-                                          .innerDistances = &renderer->surface.distances,
-                                          .layerDepths = &renderer->peel.depths,
-                                          .layerNormals = &renderer->peel.normals,
-                                          .mergedDepths = &renderer->merge.depths,
-                                          .cubeSurfaces = &renderer->cube.surfaces,
-                                          .cubeTriangles = &renderer->cube.triangles,
-                                          .intervals = &renderer->cube.intervals,
-                                          .triangles = &renderer->mesh.triangles});
-    vtPresentPass_Draw(&renderer->present, gl,
-                       &(vtPresentInputs){.paths = &renderer->refract.paths,
-                                          .light = &renderer->refract.light,
-                                          .layerDepths = &renderer->peel.depths,
-                                          .layerNormals = &renderer->peel.normals},
-                       frame->framebuffer, frame->width, frame->height);
     gl->BindVertexArray(0);
-    return vtCheckGL(gl, "drawing the frame", error);
+    return result == vt_ok ? vtCheckGL(gl, "drawing the frame", error) : result;
 }
 
 vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error)
@@ -445,7 +547,8 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
                         vtTexture_Bytes(&renderer->merge.depths) + vtCubePass_Bytes(&renderer->cube) +
                         vtTexture_Bytes(&renderer->refract.paths) +
                         vtTexture_Bytes(&renderer->refract.light) +
-                        vtTexture_Bytes(&renderer->present.environment) + vtTexture_Bytes(&renderer->image),
+                        vtTexture_Bytes(&renderer->present.environment) +
+                        vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image),
         .meshBytes = renderer->mesh.bytes,
         .layerWidth = renderer->peel.depths.width,
         .layerHeight = renderer->peel.depths.height,

@@ -227,6 +227,8 @@ typedef enum vtBackSurface {
     vt_backFarthest,   ///< the last one
 } vtBackSurface;
 
+#define VT_MAX_SAMPLES 4096
+
 /// Everything that decides one picture.
 typedef struct vtFrame {
     vtView view;
@@ -252,6 +254,9 @@ typedef struct vtFrame {
     int width, height;      ///< picture, pixels, 1 to 16384
     float exposure; ///< EV, -20 to 20: the picture's linear light is multiplied by 2^exposure; default 0
     bool transparentBackground; ///< alpha 0 where no glass is seen; glass goes on showing its environment
+    int samples; ///< a pixel, spread over it, 1 to VT_MAX_SAMPLES; their mean is shown. Other outputs than
+                 ///< the picture take one. Default 1, the pixel's centre
+    int firstSample;      ///< 0 to 1000000: number of the first of them, see vtRenderer_Draw; default 0
     uint32_t framebuffer; ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
 } vtFrame;
 
@@ -312,6 +317,11 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
 
 /// Draws one frame into frame->framebuffer, whose lower left width x height pixels are overwritten.
 /// Leaves that framebuffer bound, depth test, blending and face culling off.
+///
+/// With firstSample above 0 it goes on from the frame before: samples firstSample to firstSample + samples -
+/// 1 are added to those that are there (the ones that are there already are not drawn again), and the mean of
+/// all is shown. So a page can draw one sample a frame while its picture stands still. Where anything else in
+/// *frame but `framebuffer` has changed since, or the mesh or environment, it starts anew with firstSample.
 vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error);
 
 /// Draws one frame off screen and reads it back: 4 * width * height bytes, sRGB with straight alpha (255
@@ -319,8 +329,8 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* er
 /// bound afterwards. With rgba NULL nothing is read: it returns once the GPU has finished, for timing.
 vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error);
 
-/// Exit directions of the last frame: 3 * width * height floats, top row first. Unit world directions;
-/// (0,0,0) where the eye ray misses the glass, (2,2,2) where the path was lost.
+/// Exit directions of the last frame's last sample: 3 * width * height floats, top row first. Unit world
+/// directions; (0,0,0) where the eye ray misses the glass, (2,2,2) where the path was lost.
 vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error);
 
 vtRendererInfo vtRenderer_Info(const vtRenderer* renderer);

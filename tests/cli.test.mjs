@@ -338,6 +338,26 @@ describe('measuring', () => {
     refuses([...args, '--samples', '0'], ['--samples is 0', 'from 1 to 65536']);
   });
 
+  test('samples: smooth edges, the same in drawing and tracing', () => {
+    const args = ['render', 'sphere', '-e', 'checker', '--resolution', '96,96'];
+    const pictures = {};
+    for (const technique of ['layered', 'reference']) {
+      for (const samples of [1, 16]) {
+        const file = `${technique}-${samples}.png`;
+        const result = vitrine([...args, '-t', technique, '--samples', String(samples), '--directions', `${file}.pfm`, '-o', file]);
+        assert.equal(result.code, 0, result.error);
+        pictures[file] = readFileSync(join(folder, file));
+      }
+    }
+    const flip = (a, b) => JSON.parse(vitrine(['compare', a, b, '--json']).text).flip;
+    assert.ok(flip('layered-16.png', 'reference-16.png') < 0.3 * flip('layered-1.png', 'reference-16.png'));
+    const directions = ['layered-1.png.pfm', 'layered-16.png.pfm'].map((file) => readFileSync(join(folder, file)));
+    assert.ok(directions[0].equals(directions[1]), "directions stay those of the pixel's centre");
+    const bad = [['0', '--samples is 0; it must be a whole number from 1'], ['2.5', '--samples is 2.5'], ['many', "--samples is 'many'"],
+      ['5000', 'samples is 5000; it must be from 1 to 4096']];
+    for (const [value, sentence] of bad) refuses([...args, '--samples', value], [sentence]);
+  });
+
   test('the ladder: errors fall from rung to rung', () => {
     const result = vitrine(['ladder', 'torus', '--resolution', '96,96', '-o', 'ladder.png', '--table', 'ladder.md']);
     assert.equal(result.code, 0, result.error);

@@ -124,6 +124,8 @@ function instrument() {
   };
   window.liveContexts = () => window.counts.contexts.filter((ref) => ref.deref()?.isContextLost() === false).length;
   window.events = [];
+  window.shown = 0;
+  document.addEventListener('frame', () => ++window.shown, true);
   for (const type of ['load', 'progress', 'error', 'camera-change', 'render-scale']) {
     document.addEventListener(type, (event) => {
       if (event.target.localName !== 'vitrine-viewer') return;
@@ -138,6 +140,12 @@ function instrument() {
 function difference(a, b) {
   assert.deepEqual([a.width, a.height], [b.width, b.height]);
   return (100 * pixelmatch(a.data, b.data, null, a.width, a.height, { threshold: 0.1 })) / (a.width * a.height);
+}
+
+/** Mean difference of a channel. */
+function meanError(a, b) {
+  assert.deepEqual([a.width, a.height], [b.width, b.height]);
+  return a.data.reduce((sum, value, i) => sum + Math.abs(value - b.data[i]), 0) / a.data.length;
 }
 
 const pixel = ({ data, width }, x, y) => [...data.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)];
@@ -161,11 +169,12 @@ describe('the element', { skip }, () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
   });
 
-  /** A page with that body. When the test is over its console must hold no error nor warning but those allowed. */
+  /** A page with that body, whose viewers take one sample a pixel unless they say otherwise. When the test is over its console must hold no error nor warning but those allowed. */
   async function open(t, body, { init, headers = {}, waits = true, allowed = /^$/, ...options } = {}) {
     const path = `/page${pages.size}.html`;
     const head = '<!doctype html><html lang="en"><title>Test</title><link rel="stylesheet" href="/test.css"><link rel="icon" href="/poster.png">';
-    pages.set(path, { html: `${head}<script type="module" src="/element/vitrine-viewer.js"></script>${body}`, headers });
+    const quick = body.replaceAll(/<vitrine-viewer(?![^>]*samples=)/g, '<vitrine-viewer samples="1"');
+    pages.set(path, { html: `${head}<script type="module" src="/element/vitrine-viewer.js"></script>${quick}`, headers });
     const context = await browser.newContext({ viewport: { width: 360, height: 360 }, ...options });
     const page = await context.newPage();
     const complaints = [];
@@ -254,6 +263,42 @@ describe('the element', { skip }, () => {
       return [call, ...core.HEAPU8.subarray(16)];
     });
     assert.deepEqual(bytes, ['OpenPicture,16,64,32', ...panorama().data]);
+  });
+
+  test('a still view becomes clean, then nothing is drawn', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere" layers="2" environment-image="checker" skybox-image camera-controls samples="64"></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
+    const shown = () => page.evaluate(() => window.shown);
+    assert.equal(await shown(), 64);
+    const before = await draws(page);
+    await pause(500);
+    assert.equal(await draws(page), before, 'idle');
+    const clean = await shot(page);
+    assert.ok(difference(await picture(page), clean) < 0.01, 'the file is the picture on the screen');
+    assert.equal(await draws(page), before + 1, 'and nothing else is drawn for it');
+    const truth = nativePicture('sphere', '--layers', '2', '-e', 'checker', '--samples', '64');
+    const error = meanError(clean, truth);
+
+    await page.focus('#a');
+    await page.evaluate(() => a.shadowRoot.querySelector('.view').focus());
+    await page.keyboard.press('ArrowLeft');
+    await settle(page);
+    assert.equal(await shown(), 128, 'turning starts anew');
+    assert.ok(difference(clean, await shot(page)) > 5);
+    await page.keyboard.press('Home');
+    await page.evaluate(() => (a.samples = 1));
+    await page.evaluate(() => document.activeElement.blur());
+    await settle(page);
+    const stairs = meanError(await shot(page), truth);
+    t.diagnostic(`mean error of 1 sample ${stairs.toFixed(2)}, of 64 ${error.toFixed(2)} of 255`);
+    assert.ok(error < 0.2 * stairs);
+
+    await page.evaluate(() => (a.samples = 4));
+    await page.evaluate(() => a.removeAttribute('skybox-image'));
+    await settle(page);
+    const { data } = await picture(page);
+    const partly = data.filter((value, i) => i % 4 === 3 && value > 0 && value < 255).length;
+    assert.ok(partly > 100, 'the edge is partly transparent');
+    await page.locator('#a').screenshot({ path: join(screenshots, 'element-samples.png') });
   });
 
   test('several on a page share one module and do not disturb each other', async (t) => {
@@ -647,7 +692,7 @@ describe('the element', { skip }, () => {
       Object.assign(a, { ior: null, cameraControls: true, maxEvents: 3 });
       return [before, a.ior, a.hasAttribute('ior'), a.getAttribute('camera-controls'), a.getAttribute('max-events'), a.constructor.observedAttributes.length];
     });
-    assert.deepEqual(seen, [[1.4, 'layered', false, 4], null, false, '', '3', 23]);
+    assert.deepEqual(seen, [[1.4, 'layered', false, 4], null, false, '', '3', 24]);
     const blob = await page.evaluate(async () => {
       const { type, size } = await a.toBlob({ mimeType: 'image/jpeg' });
       return [type, size > 1000];

@@ -80,7 +80,7 @@ function keepInAddress() {
 
 function setGlass(values) {
   const { technique, ior, layers, steps, maxEvents, output } = { ...info(), ...values };
-  const done = attempt('SetGlass', technique, ior, layers, steps, maxEvents, output, 0, 0, 0);
+  const done = attempt('SetGlass', technique, ior, layers, steps, maxEvents, output, 0, 0, 0, 1);
   showState();
   return done;
 }

@@ -22,7 +22,8 @@ EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height)
         viewer->frame = vtDefaultFrame();
         viewer->frame.width = width;
         viewer->frame.height = height;
-        vtRendererDef def = {NULL}; // on the web GL is linked
+        viewer->sample = VT_MAX_SAMPLES; // nothing to draw yet
+        vtRendererDef def = {NULL};      // on the web GL is linked
         vtCreateRenderer(&def, &viewer->renderer, &viewer->error);
     }
     return viewer;
@@ -148,7 +149,7 @@ static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
 /// Technique by its id and the settings of the glass, ranges as in vtFrame; `output` is a vtOutput.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, float ior,
                                                    int layers, int steps, int maxEvents, int output,
-                                                   int layer, float exposure, bool transparent)
+                                                   int layer, float exposure, bool transparent, int samples)
 {
     vtFrame frame = viewer->frame;
     frame.technique = vtFindTechnique(technique);
@@ -164,6 +165,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char*
     frame.layer = layer;
     frame.exposure = exposure;
     frame.transparentBackground = transparent;
+    frame.samples = samples;
     return sentence(viewer, showFrame(viewer, &frame));
 }
 
@@ -203,24 +205,41 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Resize(vtViewer* viewer, int width, in
 
 EMSCRIPTEN_KEEPALIVE int vtViewer_Tick(vtViewer* viewer)
 {
-    if (!viewer->changed) {
+    vtFrame frame = viewer->frame;
+    if (viewer->changed) {
+        viewer->sample = 0;
+    } else if (viewer->sample >= (frame.output == vt_outputPicture ? frame.samples : 1)) {
         return 0;
     }
     viewer->changed = false;
-    if (vtRenderer_Draw(viewer->renderer, &viewer->frame, &viewer->error) != vt_ok) {
+    frame.firstSample = viewer->sample++;
+    frame.samples = 1;
+    if (vtRenderer_Draw(viewer->renderer, &frame, &viewer->error) != vt_ok) {
+        viewer->sample = VT_MAX_SAMPLES;
         return -1;
     }
     ++viewer->drawCount;
     return 1;
 }
 
-/// The present view and settings at another size: 4 * width * height bytes, top row first, valid until the
-/// next call; NULL on failure, see vtViewer_Error.
+/// The present view and settings at that size, of at least 16 samples (or all, if those are fewer):
+/// 4 * width * height bytes, top row first, valid until the next call; NULL on failure, see vtViewer_Error.
 EMSCRIPTEN_KEEPALIVE const uint8_t* vtViewer_Image(vtViewer* viewer, int width, int height)
 {
     vtFrame frame = viewer->frame;
     frame.width = width;
     frame.height = height;
+    // The canvas's own samples are gone on with; more than some are not worth the wait.
+    const bool isCanvas = !viewer->changed && width == viewer->frame.width && height == viewer->frame.height;
+    const int enough = isCanvas && viewer->sample > 16 ? viewer->sample : 16;
+    frame.samples = frame.samples < enough ? frame.samples : enough;
+    if (isCanvas && frame.samples > 1) {
+        frame.firstSample = 1;
+        viewer->sample = frame.samples--;
+    } else {
+        // The canvas's samples are lost: it starts anew unless it had them all.
+        viewer->changed |= viewer->sample < viewer->frame.samples;
+    }
     if (vtValidateFrame(&frame, &viewer->error) != vt_ok) {
         return NULL;
     }

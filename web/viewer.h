@@ -6,7 +6,8 @@
 typedef struct vtViewer {
     vtRenderer* renderer;
     vtMesh mesh;   ///< on the GPU as well; kept for its numbers
-    vtFrame frame; ///< of the canvas
+    vtFrame frame; ///< of the canvas; each tick draws one of its samples
+    int sample;    ///< the next one
     bool changed;  ///< since the frame drawn last
     int drawCount;
     uint8_t* image; ///< the last one of vtViewer_Image
@@ -19,5 +20,6 @@ typedef struct vtViewer {
 vtViewer* vtViewer_Create(int width, int height);
 void vtViewer_Destroy(vtViewer* viewer);
 
-/// Draws the canvas if anything changed. 1: drawn, 0: nothing to do, -1: failed, see vtViewer_Error.
+/// Draws the canvas if anything changed, else adds the next sample until all are there. 1: drawn, 0: nothing
+/// to do, -1: failed, see vtViewer_Error.
 int vtViewer_Tick(vtViewer* viewer);

@@ -16,7 +16,7 @@ typedef struct vtFrameUniforms {
     float layerDepth[4];
     float boundsMin[4]; ///< the object's box, world
     float boundsMax[4];
-    float optics[4];   ///< index of refraction, transmittance, exposure factor, 0
+    float optics[4];   ///< index of refraction, transmittance, exposure factor, samples so far
     float kay[4];      ///< largest and smallest transmittance, power, wall thickness
     int32_t search[4]; ///< layers, linear steps, binary steps, events
     int32_t size[4];   ///< picture width, height, layer width, height

@@ -6,7 +6,8 @@
 static const vtProgramDef programDef = {
     .name = "present",
     .vertex = {&vtChunk_screen_vert},
-    .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_present_frag},
+    .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_picture_light, &vtChunk_srgb,
+                 &vtChunk_present_frag},
     .samplers = {"u_paths", "u_light", "u_environment", "u_layerDepths", "u_layerNormals"},
 };
 

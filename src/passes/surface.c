@@ -30,6 +30,7 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
     vtResult result = vtSucceed(error);
     vtAttachment colors[] = {{&pass->normals, 0}, {&pass->distances, 0}};
     if (changed) {
+        vtDestroyFramebuffers(gl, &pass->distanceFramebuffer, 1); // it holds the depth that is gone
         result = vtMakeFramebuffer(gl, "surface", colors, 1, &pass->depth, &pass->framebuffer, error);
     }
     if (result != vt_ok || !distances) {
@@ -38,8 +39,8 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
     if (pass->distanceProgram == 0) {
         result = vtCreateProgram(gl, &distanceProgramDef, &pass->distanceProgram, error);
     }
-    changed |= vtTexture_Resize(&pass->distances, gl, GL_R16UI, width, height, 0);
-    if (result == vt_ok && changed) {
+    changed = vtTexture_Resize(&pass->distances, gl, GL_R16UI, width, height, 0);
+    if (result == vt_ok && (changed || pass->distanceFramebuffer == 0)) {
         result = vtMakeFramebuffer(gl, "surface with inner distance", colors, 2, &pass->depth,
                                    &pass->distanceFramebuffer, error);
     }

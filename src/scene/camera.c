@@ -19,6 +19,14 @@ vtCameraFrame vtMakeCameraFrame(const vtView* view)
     return (vtCameraFrame){view->eye, right, vtCross(right, forward), forward};
 }
 
+void vtPixelSample(int index, float* x, float* y)
+{
+    // The sequence's steps 1 / g and 1 / g^2, g^3 = g + 1, as parts of 2^32: adding wraps round by itself.
+    const uint32_t stepX = 3242174889u, stepY = 2447445414u;
+    *x = (float)(((uint32_t)index * stepX + 0x80000000u) >> 8) * 0x1p-24f - 0.5f;
+    *y = (float)(((uint32_t)index * stepY + 0x80000000u) >> 8) * 0x1p-24f - 0.5f;
+}
+
 static vtVec3 boxCorner(vtVec3 low, vtVec3 high, int corner)
 {
     return (vtVec3){corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};

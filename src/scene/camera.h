@@ -16,6 +16,11 @@ typedef struct vtFrustum {
 
 vtCameraFrame vtMakeCameraFrame(const vtView* view);
 
+/// Where sample `index` of a pixel lies, from its centre, pixels: x to the right, y up, -0.5 to 0.5. Sample 0
+/// is the centre. Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences (his R2): however
+/// many of them are taken, they cover the pixel evenly.
+void vtPixelSample(int index, float* x, float* y);
+
 /// The picture's own frustum, depth range fitted to the box.
 vtFrustum vtMakePictureFrustum(const vtView* view, float aspect, vtVec3 boundsMin, vtVec3 boundsMax);
 

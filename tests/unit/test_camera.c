@@ -32,6 +32,25 @@ static bool holds(const vtFrustum* f, const vtCameraFrame* c, vtVec3 p)
            y < f->top * z;
 }
 
+// However many samples are taken, they lie evenly: each sixteenth of the pixel has its share within 6,
+// whatever their number.
+static void samplesCoverThePixel(void** state)
+{
+    (void)state;
+    float x, y;
+    vtPixelSample(0, &x, &y);
+    assert_true(x == 0.0f && y == 0.0f);
+    int cells[16] = {0};
+    for (int i = 0; i < VT_MAX_SAMPLES; ++i) {
+        vtPixelSample(i, &x, &y);
+        assert_true(x >= -0.5f && x < 0.5f && y >= -0.5f && y < 0.5f);
+        ++cells[(int)(4.0f * (x + 0.5f)) + 4 * (int)(4.0f * (y + 0.5f))];
+        for (int cell = 0; cell < 16; ++cell) {
+            assert_true(abs(16 * cells[cell] - (i + 1)) <= 16 * 6);
+        }
+    }
+}
+
 static void layerFrustumHoldsTheWholeBox(void** state)
 {
     (void)state;
@@ -148,6 +167,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frameIsOrthonormalAndLooksAtTheTarget),
+        cmocka_unit_test(samplesCoverThePixel),
         cmocka_unit_test(layerFrustumHoldsTheWholeBox),
         cmocka_unit_test(frustaStaySoundFromInsideTheBox),
         cmocka_unit_test(framedMeshFitsThePicture),

@@ -442,7 +442,7 @@ static void wrongSettingsAreNamed(void** state)
         const char* word;
     } entries[] = {
         {{.frame = &good, .samples = -1}, "samples is -1"},
-        {{.frame = &good, .samples = VT_MAX_SAMPLES + 1}, "samples is 65537"},
+        {{.frame = &good, .samples = VT_MAX_TRACED_SAMPLES + 1}, "samples is 65537"},
         {{.frame = &good, .threads = -2}, "threads is -2"},
         {{.frame = &bad}, "index of refraction is 0.5"},
     };

@@ -333,6 +333,16 @@ static void pictureDoesNotDependOnTheFramesBefore(void** state)
     draw(fixture, &other);
     draw(fixture, &frame);
     assert_memory_equal(first, fixture->pixels, sizeof fixture->pixels);
+
+    // A technique with a target of its own, which another has seen a size come and go without.
+    frame.technique = vt_techniqueWyman;
+    draw(fixture, &frame);
+    memcpy(first, fixture->pixels, sizeof fixture->pixels);
+    draw(fixture, &other);
+    other.width = frame.width;
+    draw(fixture, &other);
+    draw(fixture, &frame);
+    assert_memory_equal(first, fixture->pixels, sizeof fixture->pixels);
     free(first);
 }
 
@@ -427,6 +437,163 @@ static void exposureMultipliesLinearLight(void** state)
     }
 }
 
+// ---------------------------------------------------------------------------------------------- samples
+
+enum { sampleCount = 8, pixelBytes = 4 * side * side };
+
+/// Sample `index` alone, whatever was drawn before.
+static void drawOneSample(Fixture* fixture, const vtFrame* frame, int index)
+{
+    vtFrame other = *frame;
+    other.ior = frame->ior + 0.01f;
+    other.samples = 1;
+    other.firstSample = 0;
+    draw(fixture, &other);
+    other = *frame;
+    other.samples = 1;
+    other.firstSample = index;
+    draw(fixture, &other);
+}
+
+/// The mean in linear light, channel by channel, weighted with alpha.
+static void addLinear(const uint8_t* pixels, float* sum)
+{
+    for (int p = 0; p < pixelBytes; ++p) {
+        float alpha = (float)pixels[p | 3] / 255.0f;
+        sum[p] += p % 4 == 3 ? alpha : alpha * vtSrgbToLinear((float)pixels[p] / 255.0f);
+    }
+}
+
+static void severalSamplesAreTheMeanOfEach(void** state)
+{
+    Fixture* fixture = *state;
+    setShape(fixture->renderer, "knot");
+    setEnvironment(fixture->renderer, "studio");
+    const vtTechnique techniques[] = {vt_techniqueLayered, vt_techniqueKayThickness, vt_techniqueWyman};
+    for (int i = 0; i < 6; ++i) {
+        vtFrame frame = smallFrame();
+        frame.technique = techniques[i / 2];
+        frame.transparentBackground = i % 2 == 1;
+        frame.exposure = 0.5f;
+        float* sum = calloc(pixelBytes, sizeof *sum);
+        for (int k = 0; k < sampleCount; ++k) {
+            drawOneSample(fixture, &frame, k);
+            addLinear(fixture->pixels, sum);
+        }
+        frame.samples = sampleCount;
+        draw(fixture, &frame);
+        int partly = 0;
+        for (int p = 0; p < pixelBytes; ++p) {
+            const float alpha = sum[p | 3];
+            partly += p % 4 == 3 && alpha > 0.5f && alpha < (float)sampleCount - 0.5f;
+            float wanted = p % 4 == 3     ? alpha / (float)sampleCount
+                           : alpha > 0.0f ? vtLinearToSrgb(sum[p] / alpha)
+                                          : 0.0f;
+            assert_near((float)fixture->pixels[p], 255.0f * wanted, 1.6f);
+        }
+        assert_true(frame.transparentBackground ? partly > side : partly == 0);
+        free(sum);
+    }
+}
+
+// One call, one sample a call, and calls that ask again for what is there: bit for bit the same.
+static void samplesAddUpOverCalls(void** state)
+{
+    Fixture* fixture = *state;
+    setShape(fixture->renderer, "goblet");
+    setEnvironment(fixture->renderer, "sky");
+    uint8_t* wanted = malloc(pixelBytes);
+    vtFrame frame = smallFrame();
+    frame.samples = sampleCount;
+    draw(fixture, &frame);
+    memcpy(wanted, fixture->pixels, pixelBytes);
+    frame.samples = 1;
+    for (frame.firstSample = 0; frame.firstSample < sampleCount; ++frame.firstSample) {
+        draw(fixture, &frame);
+    }
+    assert_memory_equal(fixture->pixels, wanted, pixelBytes);
+    frame.firstSample = 1;
+    frame.samples = sampleCount - 1;
+    draw(fixture, &frame);
+    assert_memory_equal(fixture->pixels, wanted, pixelBytes);
+    frame.firstSample = 0;
+    frame.samples = 3;
+    draw(fixture, &frame);
+    frame.firstSample = 1;
+    frame.samples = sampleCount - 1;
+    draw(fixture, &frame);
+    assert_memory_equal(fixture->pixels, wanted, pixelBytes);
+    free(wanted);
+}
+
+static void whateverChangesStartsAnew(void** state)
+{
+    Fixture* fixture = *state;
+    uint8_t* wanted = malloc(pixelBytes);
+    enum { changes = 8, first = 5 };
+    for (int i = 0; i < changes; ++i) {
+        setShape(fixture->renderer, "torus");
+        setEnvironment(fixture->renderer, "studio");
+        vtFrame before = smallFrame(), after = smallFrame();
+        after.backSurface = vt_backFarthest;
+        after.technique = before.technique = vt_techniqueWyman;
+        before.samples = first;
+        switch (i) {
+        case 0:
+            before.width = side / 2;
+            break;
+        case 1:
+            before.view = vtView_Orbit(before.view, 0.01f, 0.0f);
+            break;
+        case 2:
+            before.technique = vt_techniqueSingle;
+            break;
+        case 3:
+            before.backSurface = vt_backSecond;
+            break;
+        case 4:
+            before.exposure = 1.0f;
+            break;
+        case 5:
+            before.output = vt_outputAnalysis;
+            break;
+        default:
+            break;
+        }
+        draw(fixture, &before);
+        if (i == 6) {
+            setEnvironment(fixture->renderer, "sky");
+        }
+        if (i == 7) {
+            setShape(fixture->renderer, "knot");
+        }
+        after.firstSample = first;
+        draw(fixture, &after);
+        memcpy(wanted, fixture->pixels, pixelBytes);
+        drawOneSample(fixture, &after, first);
+        assert_memory_equal(fixture->pixels, wanted, pixelBytes);
+    }
+    free(wanted);
+}
+
+static void otherOutputsTakeOneSample(void** state)
+{
+    Fixture* fixture = *state;
+    setShape(fixture->renderer, "knot");
+    uint8_t* wanted = malloc(pixelBytes);
+    for (int output = vt_outputAnalysis; output <= vt_outputLayerNormal; ++output) {
+        vtFrame frame = smallFrame();
+        frame.output = (vtOutput)output;
+        draw(fixture, &frame);
+        memcpy(wanted, fixture->pixels, pixelBytes);
+        frame.samples = 16;
+        frame.firstSample = 3;
+        draw(fixture, &frame);
+        assert_memory_equal(fixture->pixels, wanted, pixelBytes);
+    }
+    free(wanted);
+}
+
 static void badFramesDrawNothing(void** state)
 {
     Fixture* fixture = *state;
@@ -437,6 +604,14 @@ static void badFramesDrawNothing(void** state)
     assert_int_equal(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error),
                      vt_errorArgument);
     assert_int_equal(fixture->pixels[0], 7);
+    frame = smallFrame();
+    frame.samples = 0;
+    assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
+    assert_string_equal(error.message, "samples is 0; it must be from 1 to 4096");
+    frame.samples = VT_MAX_SAMPLES;
+    frame.firstSample = -1;
+    assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
+    assert_string_equal(error.message, "first-sample is -1; it must be from 0 to 1e+06");
 }
 
 int main(void)
@@ -456,6 +631,10 @@ int main(void)
         cmocka_unit_test(layersAlternateBetweenFrontAndBack),
         cmocka_unit_test(transparentBackgroundLeavesTheGlassAsItIs),
         cmocka_unit_test(exposureMultipliesLinearLight),
+        cmocka_unit_test(severalSamplesAreTheMeanOfEach),
+        cmocka_unit_test(samplesAddUpOverCalls),
+        cmocka_unit_test(whateverChangesStartsAnew),
+        cmocka_unit_test(otherOutputsTakeOneSample),
         cmocka_unit_test(badFramesDrawNothing),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);

@@ -55,6 +55,7 @@ export const attributes = [
   number('max-events', 1, 64, 8, 'Refractions and internal reflections of a path.', { integer: true }),
   oneOf('output', outputs, 'picture; analysis: paths by colour (red two refractions, blue more, green total reflection, grey lost); or depth or normals of one layer.'),
   number('layer', 0, 15, 0, 'Which layer is shown, 0 the nearest.', { integer: true }),
+  number('samples', 1, 4096, 64, 'Samples a pixel, for smooth edges: added one a frame once the view rests. 1: a single one, and nothing is added.', { integer: true }),
   oneOf('quality', ['auto', 'high', 'medium', 'low'], 'auto: holds the frame time while moving and draws one full frame at rest; high, medium and low: always 1, 3/4 and 1/2 of the resolution.'),
 ].map((row) => ({ ...row, property: row.attribute.replace(/-(.)/g, (_, letter) => letter.toUpperCase()) }));
 

@@ -51,7 +51,7 @@ export class Viewer {
     this.#context = core.GL.createContext(canvas, {
       majorVersion: 2,
       alpha: true,
-      premultipliedAlpha: true, // the picture's alpha is 0 with black, or 1
+      premultipliedAlpha: false,
       antialias: false,
       depth: false,
       stencil: false,

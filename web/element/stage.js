@@ -1,5 +1,5 @@
-// A canvas with its viewer: what it shows, when it draws, and how well. Nothing is drawn unless something
-// changed and the canvas can be seen.
+// A canvas with its viewer: what it shows, when it draws, and how well. Nothing is drawn unless the canvas can be
+// seen and something changed; once all rests, samples are added to the picture until it has enough.
 import { outputs } from './attributes.js';
 import { builtIn } from './loading.js';
 import { Viewer } from './core.js';
@@ -26,7 +26,7 @@ export class Stage {
   orbit = new Orbit();
   quality = new Quality();
   /** Of SetGlass, for a full frame; ior null: the file's. */
-  glass = { technique: 'layered', ior: null, layers: 4, steps: 50, maxEvents: 8, output: 'picture', layer: 0, exposure: 0, transparent: true };
+  glass = { technique: 'layered', ior: null, layers: 4, steps: 50, maxEvents: 8, output: 'picture', layer: 0, exposure: 0, transparent: true, samples: 64 };
   scene = { model: null, environment: builtIn('environment', 'studio') };
 
   #host;
@@ -39,6 +39,7 @@ export class Stage {
   #spin = 0;
   #lastTime = 0;
   #dirty = false;
+  #isRefining = false; // samples may be missing
   #frame = 0; // of requestAnimationFrame
   #busy = null; // the fence of the frame on the GPU
   #still = 0; // timer
@@ -111,9 +112,12 @@ export class Stage {
     if (this.#viewer === null) this.#open();
     if (this.scene.model === null || this.#viewer === null || this.#viewer.isLost) throw new Error('nothing is shown yet');
     const [width, height] = this.#size(1);
-    this.#frameObject();
-    const problem = this.#applyGlass(this.glass) || this.#applyView();
-    if (problem) throw new Error(problem);
+    const canvas = this.#host.querySelector('canvas');
+    if (this.#dirty || this.quality.level !== 0 || canvas.width !== width || canvas.height !== height) {
+      this.#frameObject();
+      const problem = this.#applyGlass(this.glass) || this.#applyView();
+      if (problem) throw new Error(problem);
+    }
     return this.#viewer.image(width, height);
   }
 
@@ -190,20 +194,17 @@ export class Stage {
     const isModel = kind === 'model' && !problem;
     this.#fileIor = isModel ? viewer.info().ior : oldIor;
     if (isModel) this.#framedFor = '';
-    if (problem) {
-      this.#told.rejected(kind, problem);
-      return;
-    }
-    this.scene[kind] = source;
-    this.invalidate();
-    if (isNew) this.#told.shown(kind);
+    if (!problem) this.scene[kind] = source;
+    this.invalidate(); // after a failure too: the glass was changed above
+    if (problem) this.#told.rejected(kind, problem);
+    else if (isNew) this.#told.shown(kind);
   }
 
   #applyGlass(glass) {
-    const { technique, ior, layers, steps, maxEvents, output, layer, exposure, transparent } = glass;
+    const { technique, ior, layers, steps, maxEvents, output, layer, exposure, transparent, samples } = glass;
     const shown = Math.min(layer, layers - 1); // a reduced frame may have fewer
     return this.#viewer.attempt('SetGlass', technique, ior ?? this.#fileIor, layers, steps, maxEvents, outputs.indexOf(output),
-      shown, exposure, Number(transparent));
+      shown, exposure, Number(transparent), samples);
   }
 
   #applyView() {
@@ -240,11 +241,12 @@ export class Stage {
       const before = this.quality.level;
       this.quality.moving = false;
       if (this.quality.level !== before) this.invalidate();
+      else this.#schedule();
     }, stillAfter);
   }
 
   #schedule() {
-    const isWanted = this.#dirty || this.#spin !== 0;
+    const isWanted = this.#dirty || this.#spin !== 0 || (this.#isRefining && !this.quality.moving);
     const canDraw = this.#viewer !== null && !this.#viewer.isLost && this.#visible && this.scene.model !== null;
     if (!isWanted || !canDraw || this.#busy !== null || this.#frame !== 0) return;
     this.#frame = requestAnimationFrame((time) => {
@@ -263,21 +265,28 @@ export class Stage {
       this.#dirty = true;
       this.#told.turned();
     }
-    this.#dirty = false;
     const canvas = this.#host.querySelector('canvas');
     const { quality } = this;
+    const isNew = this.#dirty;
+    this.#dirty = false;
     const glass = quality.reduce(this.glass);
     const [width, height] = this.#size(quality.scale);
-    this.#frameObject();
-    let problem = this.#applyGlass(glass) || this.#applyView();
-    if (canvas.width !== width || canvas.height !== height || this.#drawn.pixelWidth === undefined) {
-      [canvas.width, canvas.height] = [width, height];
-      problem ||= this.#viewer.attempt('Resize', width, height);
+    let problem = '';
+    if (isNew) {
+      this.#frameObject();
+      problem = this.#applyGlass(glass) || this.#applyView();
+      if (canvas.width !== width || canvas.height !== height || this.#drawn.pixelWidth === undefined) {
+        [canvas.width, canvas.height] = [width, height];
+        problem ||= this.#viewer.attempt('Resize', width, height);
+      }
     }
     const start = performance.now();
-    if (this.#viewer.call('Tick') < 0) problem ||= this.#viewer.problem();
+    const drawn = this.#viewer.call('Tick');
+    this.#isRefining = drawn > 0;
+    if (drawn < 0) problem ||= this.#viewer.problem();
     if (problem) this.#told.failed(problem);
-    this.#tellScale({ pixelWidth: width, pixelHeight: height, layers: glass.layers, steps: glass.steps });
+    if (isNew) this.#tellScale({ pixelWidth: width, pixelHeight: height, layers: glass.layers, steps: glass.steps });
+    else if (drawn === 0) return;
     this.#awaitFrame(start, quality.moving);
   }
 

@@ -225,8 +225,8 @@ export class VitrineViewer extends HTMLElement {
     const isFirst = this.#values.src === undefined;
     this.#values = values;
     const stage = this.#stage;
-    const { technique, ior, layers, steps, maxEvents, output, layer, exposure } = values;
-    stage.glass = { technique, ior, layers, steps, maxEvents, output, layer, exposure: Math.log2(exposure), transparent: !this.hasAttribute('skybox-image') };
+    const { technique, ior, layers, steps, maxEvents, output, layer, exposure, samples } = values;
+    stage.glass = { technique, ior, layers, steps, maxEvents, output, layer, samples, exposure: Math.log2(exposure), transparent: !this.hasAttribute('skybox-image') };
     stage.quality.mode = values.quality;
 
     this.#access.describe(values);

@@ -1,0 +1,15 @@
+// Adds a sample to the sum of those before: red, green and blue where it covers the pixel, and that it does.
+// Every sample is cut to what the display can show before it is added. The mean over all light would be right
+// for a film, but a lamp ten times as bright as white would then fill each pixel of which it covers a tenth:
+// edges against lamps would stay stairs.
+uniform usampler2D u_sum; // bits of floats
+
+layout(location = 0) out uvec4 o_sum;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    uvec4 path = texelFetch(u_paths, pixel, 0);
+    vec4 light = seesThrough(path) ? vec4(0.0) : vec4(pictureLight(path), 1.0);
+    o_sum = floatBitsToUint(uintBitsToFloat(texelFetch(u_sum, pixel, 0)) + light);
+}

@@ -1,0 +1,82 @@
+#include "passes/accumulate.h"
+
+#include "base/error.h"
+#include "shaders.h"
+
+static const vtProgramDef addDef = {
+    .name = "add sample",
+    .vertex = {&vtChunk_screen_vert},
+    .fragment = {&vtChunk_environment, &vtChunk_picture_light, &vtChunk_add_sample_frag},
+    .samplers = {"u_paths", "u_light", "u_environment", "u_sum"},
+};
+
+static const vtProgramDef showDef = {
+    .name = "show samples",
+    .vertex = {&vtChunk_screen_vert},
+    .fragment = {&vtChunk_srgb, &vtChunk_show_samples_frag},
+    .samplers = {"u_sum"},
+};
+
+vtResult vtAccumulatePass_Prepare(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
+                                  vtError* error)
+{
+    vtResult result = vtSucceed(error);
+    if (pass->addProgram == 0) {
+        result = vtCreateProgram(gl, &addDef, &pass->addProgram, error);
+    }
+    if (result == vt_ok && pass->showProgram == 0) {
+        result = vtCreateProgram(gl, &showDef, &pass->showProgram, error);
+    }
+    for (int i = 0; i < 2 && result == vt_ok; ++i) {
+        if (vtTexture_Resize(&pass->sums[i], gl, GL_RGBA32UI, width, height, 0)) {
+            pass->count = 0;
+            vtAttachment color = {&pass->sums[i], 0};
+            result = vtMakeFramebuffer(gl, "samples", &color, 1, NULL, &pass->framebuffers[i], error);
+        }
+    }
+    return result;
+}
+
+void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* paths,
+                          const vtTexture* light, const vtTexture* environment)
+{
+    const vtTexture* before = &pass->sums[pass->latest];
+    if (pass->count == 0) {
+        const GLuint nothing[4] = {0}; // the bits of 0.0
+        vtBindFramebuffer(gl, pass->framebuffers[pass->latest], before->width, before->height);
+        gl->ClearBufferuiv(GL_COLOR, 0, nothing);
+    }
+    pass->latest = 1 - pass->latest;
+    ++pass->count;
+    vtBindFramebuffer(gl, pass->framebuffers[pass->latest], before->width, before->height);
+    gl->UseProgram(pass->addProgram);
+    vtTexture_Bind(paths, gl, 0);
+    vtTexture_Bind(light, gl, 1);
+    vtTexture_Bind(environment, gl, 2);
+    vtTexture_Bind(before, gl, 3);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer)
+{
+    const vtTexture* sum = &pass->sums[pass->latest];
+    vtBindFramebuffer(gl, framebuffer, sum->width, sum->height);
+    gl->UseProgram(pass->showProgram);
+    vtTexture_Bind(sum, gl, 0);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void vtAccumulatePass_Destroy(vtAccumulatePass* pass, const vtGL* gl)
+{
+    vtDestroyFramebuffers(gl, pass->framebuffers, 2);
+    vtTexture_Destroy(&pass->sums[0], gl);
+    vtTexture_Destroy(&pass->sums[1], gl);
+    gl->DeleteProgram(pass->addProgram);
+    gl->DeleteProgram(pass->showProgram);
+    *pass = (vtAccumulatePass){0};
+}
+
+size_t vtAccumulatePass_Bytes(const vtAccumulatePass* pass)
+{
+    return vtTexture_Bytes(&pass->sums[0]) + vtTexture_Bytes(&pass->sums[1]);
+}

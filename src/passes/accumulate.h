@@ -1,0 +1,24 @@
+#pragma once
+
+#include "gl/program.h"
+#include "gl/target.h"
+
+/// Several samples a pixel: their sum in linear light, and its mean as a picture. Floats are kept as bits in
+/// integers because ES 3.0 draws to no others.
+typedef struct vtAccumulatePass {
+    GLuint addProgram, showProgram; ///< compiled when first used
+    GLuint framebuffers[2];
+    vtTexture sums[2]; ///< RGBA32UI, in turns: WebGL forbids drawing to what is read
+    int latest;        ///< which of them is the sum
+    int count;         ///< samples in it; 0: whatever the textures hold, it is none
+} vtAccumulatePass;
+
+/// Compiles and sizes what the other two need; does nothing where all is there.
+vtResult vtAccumulatePass_Prepare(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
+                                  vtError* error);
+/// Adds the paths of one sample; the uniform block must be that sample's.
+void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* paths,
+                          const vtTexture* light, const vtTexture* environment);
+void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer);
+void vtAccumulatePass_Destroy(vtAccumulatePass* pass, const vtGL* gl);
+size_t vtAccumulatePass_Bytes(const vtAccumulatePass* pass);
