@@ -28,7 +28,8 @@ const numbers = (vector) => vector.map((value) => Number(value.toPrecision(4))).
 export function markdown(report) {
   const { contestants, camera, versions } = report;
   const rows = contestants.map((entry) => {
-    const time = `${entry.milliseconds.toFixed(1)} ms | ${entry.fastest.toFixed(1)}–${entry.slowest.toFixed(1)} ms | ${entry.ratio === null ? '–' : entry.ratio.toFixed(2)}`;
+    const plain = entry.plainMilliseconds === undefined ? '–' : `${entry.plainMilliseconds.toFixed(1)} ms`;
+    const time = `${entry.milliseconds.toFixed(1)} ms | ${plain} | ${entry.fastest.toFixed(1)}–${entry.slowest.toFixed(1)} ms | ${entry.ratio === null ? '–' : entry.ratio.toFixed(2)}`;
     const quality = entry.kind === 'empty' ? '– | – | – | – | – | –'
       : [percent(entry.within1), percent(entry.within5), `${entry.medianAngle.toFixed(2)}°`, entry.flip.toFixed(3), entry.flipReflecting.toFixed(3),
         entry.thickness === null ? '–' : entry.thickness.toFixed(3)].join(' | ');
@@ -36,25 +37,31 @@ export function markdown(report) {
   });
   const calibrations = contestants.filter(({ kind }) => kind === 'peer').map(({ name, calibration }) => `${name} ${angle(calibration.median)} (at most ${angle(calibration.largest)})`);
   const natives = contestants.filter(({ kind }) => kind === 'vitrine').map(({ name, asNative }) => `${name} ${percent(asNative)}`);
-  return `# Glass in the browser
-
-${report.date}; ${report.renderer}; Chromium ${report.browser}; ${report.processors} × ${report.processor || 'processor'}${report.threads === null ? '' : `, LP_NUM_THREADS ${report.threads}`}
+  return `${report.date}; ${report.renderer}; Chromium ${report.browser}; ${report.processors} × ${report.processor || 'processor'}${report.threads === null ? '' : `, LP_NUM_THREADS ${report.threads}`}
 
 \`${report.model}\` (${report.triangles} triangles, normals ${report.normals}), \`${report.environment}\`, ${report.size} × ${report.size} pixels, index ${report.ior},
 eye ${numbers(camera.eye)}, target ${numbers(camera.target)}, ${camera.fov}°; ${report.rounds} rounds in turns, medians. three ${versions.three}, drei ${versions['@react-three/drei']},
 fiber ${versions['@react-three/fiber']}, three-mesh-bvh ${versions['three-mesh-bvh']}.
 
-| glass | a frame | fastest–slowest | ratio | within 1° | within 5° | median | FLIP | FLIP, reflecting | thickness |
-|---|---|---|---|---|---|---|---|---|---|
+| glass | a frame | not reflecting | fastest–slowest | ratio | within 1° | within 5° | median | FLIP | FLIP, reflecting | thickness |
+|---|---|---|---|---|---|---|---|---|---|---|
 ${rows.join('\n')}
 ${report.absent.map((entry) => `\nLeft out: ${titleOf(entry)} (${entry.problem}).\n`).join('')}
-Ratio: to MeshPhysicalMaterial. Directions: of the ${report.judgedPixels} pixels whose true path has 1 to 4 events. FLIP: mean over the picture
+A frame: each as it is by default; "not reflecting": those that reflect, without that. Ratio: to MeshPhysicalMaterial by default. Directions: of the ${report.judgedPixels} pixels whose true path has 1 to 4 events. FLIP: mean over the picture
 (${percent(report.background)} of it background), all without reflection, against the ray tracer without; "reflecting": each as it is by default, against the ray tracer
-with Fresnel reflection, ${report.samples} paths a pixel. Thickness: what suited the material best of five; the mean chord is ${report.meanChord.toFixed(3)}.
+with Fresnel reflection, ${report.samples} paths a pixel. Thickness: ${report.thicknessGiven ? 'as given' : 'what suited the material best of five'}; the mean chord is ${report.meanChord.toFixed(3)}.
 
 Decoded background pixels are off by, median: ${calibrations.join(', ') || '–'}. Vitrine's directions are the native program's; in the browser
 they are the same within 2° (8 bits a channel) in: ${natives.join(', ') || '–'} of those pixels.
 `;
+}
+
+/** The text with the report between its marks `<!-- glass NAME -->` and `<!-- end -->`, NAME the model's. */
+export function insert(text, report) {
+  const [start, end] = [`<!-- glass ${report.model} -->\n`, '<!-- end -->'];
+  const from = text.indexOf(start), to = text.indexOf(end, from);
+  if (from < 0 || to < 0) throw new Error(`no marks '${start.trim()}' and '${end}' in the file of --into`);
+  return `${text.slice(0, from + start.length)}\n${markdown(report)}\n${text.slice(to)}`;
 }
 
 /** All pictures side by side, named. */

@@ -35,6 +35,7 @@ test('the glass benchmark reports', { skip: missing.length > 0 && `missing: ${mi
     // Background pixels are right whoever draws them: the pictures have the same view, and colours say directions.
     assert.ok(entry.calibration.median < (entry.kind === 'peer' ? 0.3 : 1), `${entry.name}: background off by ${entry.calibration.median} degrees`);
   }
+  assert.ok(report.contestants.every(({ name, plainMilliseconds }) => (plainMilliseconds > 0) === ['physical', 'transmission'].includes(name)));
   const layered = report.contestants.find(({ name }) => name === 'layered');
   assert.ok(layered.asNative > 0.97, `browser and native agree in ${layered.asNative}`);
   assert.equal(readFileSync(join(out, 'report.md'), 'utf8'), stdout.trimEnd() + '\n');
