@@ -43,12 +43,13 @@ static void nameRungs(const vtFrame* base, Ladder* ladder)
         vtFrame* frame = &ladder->frames[i];
         *frame = *base;
         frame->technique = extra ? vt_techniqueLayered : (vtTechnique)i;
-        frame->layers = extra && 2 * base->layers <= VT_MAX_LAYERS ? 2 * base->layers : base->layers;
+        const int layers = vtResolveFrame(frame).layers;
+        frame->layers = extra && 2 * layers <= VT_MAX_LAYERS ? 2 * layers : base->layers;
         const vtTechniqueInfo* info = vtTechnique_Info(frame->technique);
         ladder->rungs[i].year = info->year;
         if (frame->technique == vt_techniqueLayered) {
             snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s, %d layers", info->id,
-                     frame->layers);
+                     vtResolveFrame(frame).layers);
         } else {
             snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s", info->id);
         }
@@ -120,7 +121,7 @@ static void printTable(FILE* out, const vtOptions* options, const vtSession* ses
 {
     const vtFrame* frame = &ladder->frames[0];
     fprintf(out, "`%s`, %d x %d, index %g, %d events; reference (Embree) %.0f ms; %s\n\n", options->model,
-            frame->width, frame->height, (double)frame->ior, frame->maxEvents, ladder->traced,
+            frame->width, frame->height, (double)frame->ior, vtResolveFrame(frame).maxEvents, ladder->traced,
             vtRenderer_Info(session->renderer).device);
     fprintf(out,
             "| technique | year | within 1° | within 5° | mean error | median | lost | mean FLIP | time | "

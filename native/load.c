@@ -153,6 +153,15 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
         return vtFail(error, vt_errorArgument, "--layer-source is '%s'; it must be cube or eye",
                       options->layerSource);
     }
+    int preset = 0;
+    while (preset < vt_presetCount && strcmp(options->preset, vtPresetName(preset)) != 0) {
+        ++preset;
+    }
+    if (preset == vt_presetCount) {
+        return vtFail(error, vt_errorArgument, "--preset is '%s'; it must be low, medium or high",
+                      options->preset);
+    }
+    frame->preset = (vtPreset)preset;
     frame->layerSource = fromEye ? vt_layersFromEye : vt_layersFromCube;
     frame->exposure = options->exposure;
     frame->samples = isReference ? 1 : options->samples; // the reference takes more

@@ -20,6 +20,7 @@ typedef struct vtOptions {
     const char* models;
     const char* backSurface;
     const char* layerSource;
+    const char* preset;
     float ior, fov, exposure;
     float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
     vtVec3 camera, target;

@@ -93,7 +93,7 @@ static void addRadiance(const Job* job, size_t pixel, vtVec3 direction)
 /// The pixel centres' own paths; they are all the samples there are where one is asked for.
 static void traceCentres(const Job* job, const Tile* tile)
 {
-    const vtPathRules rules = {job->def->frame->ior, job->def->frame->maxEvents, false};
+    const vtPathRules rules = {job->def->frame->ior, vtResolveFrame(job->def->frame).maxEvents, false};
     const bool colour = job->image->radiance != NULL && job->samples == 1 && !job->def->fresnel;
     vtReferencePath paths[VT_PATH_BATCH];
     int count = 0;
@@ -130,7 +130,8 @@ static vtReferencePath makeSample(const Job* job, int column, int row, int index
 
 static void traceSamples(const Job* job, const Tile* tile, int index)
 {
-    const vtPathRules rules = {job->def->frame->ior, job->def->frame->maxEvents, job->def->fresnel};
+    const vtPathRules rules = {job->def->frame->ior, vtResolveFrame(job->def->frame).maxEvents,
+                               job->def->fresnel};
     vtReferencePath paths[VT_PATH_BATCH];
     int count = 0;
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {

@@ -84,6 +84,7 @@ static vtResult openModel(Page* page, const char* name, vtError* error)
 static vtFrame frameAt(const Page* page, float distance)
 {
     vtFrame frame = vtDefaultFrame();
+    frame.technique = vt_techniqueLayered;
     frame.width = frame.height = side;
     frame.ior = 1.5f;
     frame.view = vtView_Zoom(vtFrameMesh(&page->session.input.mesh, 45.0f, 1.0f), distance);

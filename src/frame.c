@@ -3,22 +3,56 @@
 #include "base/math.h"
 #include "technique.h"
 
+// One row a preset, as the table in vitrine.h.
+static const struct {
+    const char* name;
+    int layers, steps;
+    int exactLayers, exactSteps, cubeSize;
+    int maxEvents;
+} presets[vt_presetCount] = {
+    [vt_presetLow] = {"low", 2, 25, 4, 64, 64, 4},
+    [vt_presetMedium] = {"medium", 4, 50, 8, 256, 128, 8},
+    [vt_presetHigh] = {"high", 8, 100, 8, 512, 256, 8},
+};
+
+const char* vtPresetName(int index)
+{
+    return index >= 0 && index < vt_presetCount ? presets[index].name : NULL;
+}
+
+vtFrame vtResolveFrame(const vtFrame* frame)
+{
+    const int row = frame->preset;
+    const bool exact = vtTechnique_Row(frame->technique)->cube;
+    vtFrame resolved = *frame;
+    if (resolved.layers == 0) {
+        resolved.layers = exact ? presets[row].exactLayers : presets[row].layers;
+    }
+    if (resolved.steps == 0) {
+        resolved.steps = exact ? presets[row].exactSteps : presets[row].steps;
+    }
+    if (resolved.cubeSize == 0) {
+        resolved.cubeSize = presets[row].cubeSize;
+    }
+    if (resolved.maxEvents == 0) {
+        resolved.maxEvents = presets[row].maxEvents;
+    }
+    return resolved;
+}
+
 vtFrame vtDefaultFrame(void)
 {
     return (vtFrame){
         .view = {.eye = {0.36f, 0.3f, 3.05f}, .target = {0.0f, 0.0f, 0.0f}, .fovY = 45.0f},
-        .technique = vt_techniqueLayered,
+        .technique = vt_techniqueExact,
+        .preset = vt_presetMedium,
         .ior = 1.5f,
         .transmittance = 0.8f,
         .maxTransmittance = 0.95f,
         .minTransmittance = 0.2f,
         .power = 3.0f,
-        .cubeSize = 256,
         .topLevel = 7,
-        .layers = 4,
-        .steps = 50,
         .refine = 8,
-        .maxEvents = 8,
         .width = 512,
         .height = 512,
         .samples = 1,
@@ -54,10 +88,11 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
     } ranges[] = {
         {"field of view", frame->view.fovY, 1, 170},
         {"index of refraction", frame->ior, 1, 4},
-        {"layers", frame->layers, 1, VT_MAX_LAYERS},
-        {"steps", frame->steps, 1, VT_MAX_STEPS},
+        {"preset", frame->preset, 0, vt_presetCount - 1},
+        {"layers", frame->layers, 0, VT_MAX_LAYERS},
+        {"steps", frame->steps, 0, VT_MAX_STEPS},
         {"refine", frame->refine, 0, VT_MAX_REFINE},
-        {"max-events", frame->maxEvents, 1, VT_MAX_EVENTS},
+        {"max-events", frame->maxEvents, 0, VT_MAX_EVENTS},
         {"transmittance", frame->transmittance, 0, 1},
         {"max-transmittance", frame->maxTransmittance, 0, 1},
         {"min-transmittance", frame->minTransmittance, 0, frame->maxTransmittance},
@@ -65,7 +100,7 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         {"wall-thickness", frame->wallThickness, 0, 1e6},
         {"back-surface", frame->backSurface, vt_backSecond, vt_backFarthest},
         {"layer-source", frame->layerSource, vt_layersFromCube, vt_layersFromEye},
-        {"cube-size", frame->cubeSize, 32, 1024},
+        {"cube-size", frame->cubeSize, frame->cubeSize == 0 ? 0 : 32, 1024},
         {"top-level", frame->topLevel, 0, VT_MAX_CUBE_LEVELS - 1},
         {"exposure", frame->exposure, -20, 20},
         {"samples", frame->samples, 1, VT_MAX_SAMPLES},
@@ -78,6 +113,9 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         if (checkRange(ranges[i].field, ranges[i].value, ranges[i].low, ranges[i].high, error) != vt_ok) {
             return vt_errorArgument;
         }
+    }
+    if ((frame->cubeSize & (frame->cubeSize - 1)) != 0) {
+        return vtFail(error, vt_errorArgument, "cube-size is %d; it must be a power of two", frame->cubeSize);
     }
     const int layers = vtFrame_LayerCount(frame);
     if (frame->output >= vt_outputLayerDepth && layers == 0) {

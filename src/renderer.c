@@ -425,13 +425,15 @@ static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
     return vt_ok;
 }
 
-vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error)
+vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* error)
 {
     assert(renderer->mesh.indexCount > 0 && "set a mesh before drawing");
-    vtResult result = vtValidateFrame(frame, error);
+    vtResult result = vtValidateFrame(asked, error);
     if (result != vt_ok) {
         return result;
     }
+    const vtFrame resolved = vtResolveFrame(asked);
+    const vtFrame* frame = &resolved;
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     if (row->innerDistances && renderer->mesh.distances == 0) {

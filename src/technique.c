@@ -152,7 +152,7 @@ const vtTechniqueRow* vtTechnique_Row(vtTechnique technique)
 int vtFrame_LayerCount(const vtFrame* frame)
 {
     int layers = vtTechnique_Row(frame->technique)->layers;
-    return layers == VT_LAYERS_OF_FRAME ? frame->layers : layers;
+    return layers == VT_LAYERS_OF_FRAME ? vtResolveFrame(frame).layers : layers;
 }
 
 const vtTechniqueInfo* vtTechnique_Info(vtTechnique technique)

@@ -221,6 +221,21 @@ typedef enum vtLayerSource {
     vt_layersFromEye,      ///< from the eye, peeled each frame: for meshes that change
 } vtLayerSource;
 
+/// What a frame's settings are where it says 0: less work for weak GPUs, more accuracy for strong ones.
+///
+/// |                       | low | medium | high |
+/// |-----------------------|-----|--------|------|
+/// | layers peeled         | 2   | 4      | 8    |
+/// | linear steps          | 25  | 50     | 100  |
+/// | exact: layers         | 4   | 8      | 8    |
+/// | exact: steps          | 64  | 256    | 512  |
+/// | exact: texels a side  | 64  | 128    | 256  |
+/// | events                | 4   | 8      | 8    |
+typedef enum vtPreset { vt_presetLow = 0, vt_presetMedium, vt_presetHigh, vt_presetCount } vtPreset;
+
+/// "low", "medium", "high"; NULL past the end.
+const char* vtPresetName(int index);
+
 /// What `wyman` takes for the back side of an object.
 typedef enum vtBackSurface {
     vt_backSecond = 0, ///< the surface behind the first
@@ -234,15 +249,19 @@ typedef struct vtFrame {
     vtView view;
     vtTechnique technique;
     vtOutput output;
-    int layer;     ///< for the layer outputs: 0 (nearest) to layers - 1
-    float ior;     ///< index of refraction of the glass, 1 to 4; default 1.5
-    int layers;    ///< depth layers peeled, 1 to VT_MAX_LAYERS; default 4
-    int steps;     ///< linear search steps a segment, 1 to VT_MAX_STEPS; default 50
-    int refine;    ///< binary search steps after them, 0 to VT_MAX_REFINE; default 8
-    int maxEvents; ///< refractions and internal reflections of a path, 1 to VT_MAX_EVENTS; default 8
-    int layerSize; ///< longer side of the layer textures, texels, 16 to 8192; 0: that of the picture
+    int layer;       ///< for the layer outputs: 0 (nearest) to layers - 1
+    float ior;       ///< index of refraction of the glass, 1 to 4; default 1.5
+    vtPreset preset; ///< of the settings that are 0; default vt_presetMedium
+    int layers;      ///< depth layers peeled, 1 to VT_MAX_LAYERS; 0, the default: the preset's
+    int steps;       ///< search steps a segment, 1 to VT_MAX_STEPS: linear ones; exact: texels of its pyramid
+                     ///< read; 0, the default: the preset's
+    int refine;      ///< binary search steps after them, 0 to VT_MAX_REFINE; default 8
+    int maxEvents;   ///< refractions and internal reflections of a path, 1 to VT_MAX_EVENTS; 0, the default:
+                     ///< the preset's
+    int layerSize;   ///< longer side of the layer textures, texels, 16 to 8192; 0: that of the picture
     vtLayerSource layerSource; ///< exact; default vt_layersFromCube
-    int cubeSize; ///< exact: texels along a side of its layers, a power of two, 32 to 1024; default 256
+    int cubeSize; ///< exact: texels along a side of its layers, a power of two, 32 to 1024; 0, the default:
+                  ///< the preset's
     int topLevel; ///< exact: highest level of the interval pyramid, 0 (walks texel by texel) to 9; default 7
     vtBackSurface backSurface; ///< wyman; default vt_backSecond
     float transmittance; ///< 0 to 1: of a surface (kay-linear), of a unit of length (kay-thickness); default
@@ -260,8 +279,11 @@ typedef struct vtFrame {
     uint32_t framebuffer; ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
 } vtFrame;
 
-/// 512 x 512, technique layered, and the defaults documented at each field; the view looks at the origin.
+/// 512 x 512, technique exact, and the defaults documented at each field; the view looks at the origin.
 vtFrame vtDefaultFrame(void);
+
+/// The frame with every 0 that leaves a setting to the preset replaced by what it stands for.
+vtFrame vtResolveFrame(const vtFrame* frame);
 
 /// Checks every field against its documented range; the sentence names field, value and range.
 vtResult vtValidateFrame(const vtFrame* frame, vtError* error);

@@ -151,7 +151,7 @@ describe('output', () => {
   });
 
   test('layer sheet, analysis, both backends, verbose', () => {
-    const result = vitrine(['render', 'torus', ...small, '-o', 'a.png', '--layer-sheet', 'sheet.png', '--analysis', '-v']);
+    const result = vitrine(['render', 'torus', '-t', 'layered', ...small, '-o', 'a.png', '--layer-sheet', 'sheet.png', '--analysis', '-v']);
     assert.equal(result.code, 0, result.error);
     assert.match(result.error, /4 layers of \d+ x \d+, [\d.]+ MB/);
     const sheet = readFileSync(join(folder, 'sheet.png'));
@@ -396,7 +396,7 @@ describe('golden images', async () => {
     'bottle-sky': ['bottle', '-e', 'sky', '--camera', '2,1.2,2.4'],
     'diamond-studio': ['diamond', '-e', 'studio', '--ior', '2.4', '--max-events', '16'],
     'knot-analysis': ['knot', '--analysis'],
-    'torus-two-layers': ['torus', '-e', 'checker', '--layers', '2'],
+    'torus-two-layers': ['torus', '-t', 'layered', '-e', 'checker', '--layers', '2'],
     'wyman-farthest': ['knot', '-e', 'sky', '-t', 'wyman', '--back-surface', 'farthest'],
   };
   // One baseline for every row of the technique table.

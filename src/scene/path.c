@@ -35,6 +35,7 @@ vtResult vtTracePath(const vtMesh* mesh, const vtFrame* frame, float x, float y,
     if (result != vt_ok) {
         return result;
     }
+    const int maxEvents = vtResolveFrame(frame).maxEvents;
     vtBvh* bvh = vtCreateBvh(mesh);
     if (bvh == NULL) {
         return vtFail(error, vt_errorMemory, "path: out of memory for %u triangles", mesh->indexCount / 3);
@@ -50,7 +51,7 @@ vtResult vtTracePath(const vtMesh* mesh, const vtFrame* frame, float x, float y,
     float start = 0.0f;
     bool inside = false;
     vtBvhHit hit;
-    while (path->eventCount < frame->maxEvents && vtBvh_Trace(bvh, origin, direction, start, inside, &hit)) {
+    while (path->eventCount < maxEvents && vtBvh_Trace(bvh, origin, direction, start, inside, &hit)) {
         vtPathEvent* event = &path->events[path->eventCount++];
         vtVec3 normal = vtNormalize(interpolate(mesh, mesh->normals, &hit));
         vtVec3 flat = flatNormal(mesh, hit.triangle);
@@ -62,8 +63,8 @@ vtResult vtTracePath(const vtMesh* mesh, const vtFrame* frame, float x, float y,
         event->outgoing = degreesBetween(direction, event->reflected ? against : vtScale(against, -1.0f));
         start = 1e-5f * vtLength(vtSub(mesh->boundsMax, mesh->boundsMin));
     }
-    path->exited = !inside && (path->eventCount < frame->maxEvents ||
-                               !vtBvh_Trace(bvh, origin, direction, start, false, &hit));
+    path->exited =
+        !inside && (path->eventCount < maxEvents || !vtBvh_Trace(bvh, origin, direction, start, false, &hit));
     path->direction = direction;
     vtDestroyBvh(bvh);
     return vtSucceed(error);

@@ -118,27 +118,42 @@ static void defaultFrameIsValid(void** state)
     vtFrame frame = vtDefaultFrame();
     vtError error;
     assert_ok(vtValidateFrame(&frame, &error), error);
-    assert_int_equal(frame.layers, 4);
-    assert_int_equal(frame.steps, 50);
+    vtFrame resolved = vtResolveFrame(&frame);
+    assert_int_equal(frame.technique, vt_techniqueExact);
+    assert_int_equal(resolved.layers, 8);
+    assert_int_equal(resolved.cubeSize, 128);
+    frame.technique = vt_techniqueLayered;
+    resolved = vtResolveFrame(&frame);
+    assert_int_equal(resolved.layers, 4);
+    assert_int_equal(resolved.steps, 50);
+    frame.preset = vt_presetLow;
+    frame.steps = 7;
+    assert_int_equal(vtResolveFrame(&frame).layers, 2);
+    assert_int_equal(vtResolveFrame(&frame).steps, 7);
+    assert_int_equal(vtResolveFrame(&frame).maxEvents, 4);
     assert_int_equal(frame.refine, 8);
-    assert_int_equal(frame.maxEvents, 8);
+    assert_int_equal(resolved.maxEvents, 8);
 }
 
 static void framesOutOfRangeAreNamed(void** state)
 {
     (void)state;
     vtFrame base = vtDefaultFrame(), f;
+    base.technique = vt_techniqueLayered;
     vtError error;
 #define EXPECT(change, text)                                                                                 \
     f = base;                                                                                                \
     change;                                                                                                  \
     assert_int_equal(vtValidateFrame(&f, &error), vt_errorArgument);                                         \
     assert_non_null(strstr(error.message, text))
-    EXPECT(f.layers = 0, "layers is 0; it must be from 1 to 16");
+    EXPECT(f.layers = -1, "layers is -1; it must be from 0 to 16");
     EXPECT(f.layers = 17, "layers is 17");
-    EXPECT(f.steps = 0, "steps");
+    EXPECT(f.steps = -1, "steps");
+    EXPECT(f.cubeSize = 100, "cube-size is 100; it must be a power of two");
+    EXPECT(f.cubeSize = 2048, "cube-size is 2048; it must be from 32 to 1024");
+    EXPECT(f.preset = vt_presetCount, "preset is 3");
     EXPECT(f.refine = 33, "refine");
-    EXPECT(f.maxEvents = 0, "max-events");
+    EXPECT(f.maxEvents = 65, "max-events");
     EXPECT(f.ior = 0.9f, "index of refraction is 0.9; it must be from 1 to 4");
     EXPECT(f.ior = NAN, "index of refraction");
     EXPECT(f.width = 0, "width");

@@ -54,6 +54,7 @@ static void setEnvironment(vtRenderer* renderer, const char* name)
 static vtFrame smallFrame(void)
 {
     vtFrame frame = vtDefaultFrame();
+    frame.technique = vt_techniqueLayered;
     frame.width = frame.height = side;
     return frame;
 }
