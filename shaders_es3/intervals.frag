@@ -63,9 +63,9 @@ void main()
 #ifdef FIRST_LEVEL
         readColumn(min(texel + step, u_cube.x - 1), nextInner, nextOuter);
 #else
-        ivec2 below = 2 * texel + step;
-        nextInner = vec4(texelFetch(u_intervals, ivec3(below, 2 * u_axis), u_level));
-        nextOuter = vec4(texelFetch(u_intervals, ivec3(below, 2 * u_axis + 1), u_level));
+        ivec2 below = tileTexel(2 * texel + step, u_level);
+        nextInner = vec4(texelFetch(u_intervals, ivec3(below, 2 * u_axis), 0));
+        nextOuter = vec4(texelFetch(u_intervals, ivec3(below, 2 * u_axis + 1), 0));
 #endif
         inner = meetInner(inner, nextInner);
         outer = joinOuter(outer, nextOuter);

@@ -1,6 +1,6 @@
-// One triangle that covers the viewport; no vertex buffer.
+// One triangle that covers the viewport, as far away as can be; no vertex buffer.
 void main()
 {
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    gl_Position = vec4(corner, 0.0, 1.0);
+    gl_Position = vec4(corner, 1.0, 1.0);
 }

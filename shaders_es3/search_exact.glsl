@@ -198,7 +198,7 @@ vec3 tracePath(SurfaceHit hit, vec3 direction, out int status, out int events, o
             // The tile's far sides, and where the ray came into the cell: from the cell alone, so that every
             // way here gives the same numbers.
             ivec2 tile = s.cell >> s.level;
-            vec4 b = orient(vec4(texelFetch(u_intervals, ivec3(tile, s.slice), s.level)), s.mirrored);
+            vec4 b = orient(vec4(texelFetch(u_intervals, ivec3(tileTexel(tile, s.level), s.slice), 0)), s.mirrored);
             bounds = vec2((tile + s.positive) << s.level);
             exits = (bounds - s.ray.origin.xy) * s.ray.inverse.xy;
             vec2 enters = (vec2(s.cell + 1 - s.positive) - s.ray.origin.xy) * s.ray.inverse.xy;

@@ -231,10 +231,14 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     const int layers = vtFrame_LayerCount(frame);
-    vtResult result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height, error);
-    if (result == vt_ok && row->surface) {
+    vtResult result = vt_ok;
+    if (row->surface) {
         result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
                                       row->innerDistances, error);
+    }
+    if (result == vt_ok) {
+        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height,
+                                      row->surface ? &renderer->surface.depth : NULL, error);
     }
     if (result == vt_ok && layers > 0) {
         result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, layers, error);
@@ -360,8 +364,7 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
         vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
     }
     vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
-                       &(vtRefractInputs){.surfaceDepth = &renderer->surface.depth,
-                                          .surfaceNormals = &renderer->surface.normals,
+                       &(vtRefractInputs){.surface = &renderer->surface.attributes,
                                           .innerDistances = &renderer->surface.distances,
                                           .layerDepths = &renderer->peel.depths,
                                           .layerNormals = &renderer->peel.normals,

@@ -10,8 +10,8 @@
 // The texture units of the refract pass, the same for every technique (passes/refract.c binds them).
 #define VT_REFRACT_SAMPLERS                                                                                  \
     {                                                                                                        \
-        "u_surfaceDepth", "u_surfaceNormals", "u_innerDistances", "u_layerDepths", "u_layerNormals",         \
-            "u_mergedDepths", "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles"              \
+        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles"                                \
     }
 
 static const vtTechniqueRow rows[vt_techniqueCount] = {

@@ -6,29 +6,22 @@
 
 bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int width, int height, int layers)
 {
-    return vtTexture_ResizeLevels(texture, gl, format, width, height, layers, 1);
-}
-
-bool vtTexture_ResizeLevels(vtTexture* texture, const vtGL* gl, GLenum format, int width, int height,
-                            int layers, int levels)
-{
     GLenum target = layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
     if (texture->name != 0 && texture->target == target && texture->format == format &&
-        texture->width == width && texture->height == height && texture->layers == layers &&
-        texture->levels == levels) {
+        texture->width == width && texture->height == height && texture->layers == layers) {
         return false;
     }
     vtTexture_Destroy(texture, gl);
-    *texture = (vtTexture){0, target, format, width, height, layers, levels};
+    *texture = (vtTexture){0, target, format, width, height, layers};
     gl->GenTextures(1, &texture->name);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(target, texture->name);
     if (layers > 0) {
-        gl->TexStorage3D(target, levels, format, width, height, layers);
+        gl->TexStorage3D(target, 1, format, width, height, layers);
     } else {
-        gl->TexStorage2D(target, levels, format, width, height);
+        gl->TexStorage2D(target, 1, format, width, height);
     }
-    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl->TexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl->TexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
@@ -70,11 +63,7 @@ size_t vtTexture_Bytes(const vtTexture* texture)
         return 0;
     }
     size_t layers = texture->layers > 0 ? (size_t)texture->layers : 1;
-    size_t texels = 0;
-    for (int level = 0; level < texture->levels; ++level) {
-        texels += (size_t)(texture->width >> level) * (size_t)(texture->height >> level);
-    }
-    return bytesPerTexel(texture->format) * texels * layers;
+    return bytesPerTexel(texture->format) * (size_t)texture->width * (size_t)texture->height * layers;
 }
 
 void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, int unit)

@@ -9,15 +9,11 @@ typedef struct vtTexture {
     GLenum target;
     GLenum format;
     int width, height, layers;
-    int levels; ///< of its mip chain
 } vtTexture;
 
 /// Makes the texture of that format and size, dropping an older one of another; does nothing where the
 /// size is stable. layers = 0: GL_TEXTURE_2D, else GL_TEXTURE_2D_ARRAY. True where it was made anew.
 bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int width, int height, int layers);
-/// The same with so many mip levels, each half as wide and high as the one before.
-bool vtTexture_ResizeLevels(vtTexture* texture, const vtGL* gl, GLenum format, int width, int height,
-                            int layers, int levels);
 void vtTexture_Destroy(vtTexture* texture, const vtGL* gl);
 size_t vtTexture_Bytes(const vtTexture* texture);
 

@@ -20,7 +20,7 @@ static const vtProgramDef firstDef = {
 static const vtProgramDef levelDef = {
     .name = "intervals",
     .vertex = {&vtChunk_screen_vert},
-    .fragment = {&vtChunk_intervals, &vtChunk_intervals_frag},
+    .fragment = {&vtChunk_cube, &vtChunk_intervals, &vtChunk_intervals_frag},
     .samplers = {"u_intervals"},
 };
 
@@ -47,13 +47,10 @@ vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layer
                            vtError* error)
 {
     const int groups = (layers + 3) / 4;
-    int levels = 1;
-    while (size >> levels > 0 && levels < VT_MAX_CUBE_LEVELS) {
-        ++levels;
-    }
     *changed = vtTexture_Resize(&pass->surfaces, gl, GL_RGBA16UI, size, size, sides * groups);
     *changed |= vtTexture_Resize(&pass->triangles, gl, GL_RGBA32UI, size, size, sides * groups);
-    *changed |= vtTexture_ResizeLevels(&pass->intervals, gl, GL_RGBA16UI, size, size, 2 * sides, levels);
+    // Half as high again: the levels above the first stand side by side on top of it.
+    *changed |= vtTexture_Resize(&pass->intervals, gl, GL_RGBA16UI, size, size + size / 2, 2 * sides);
     for (int i = 0; i < 2; ++i) {
         *changed |= vtTexture_Resize(&pass->depthBuffers[i], gl, GL_DEPTH_COMPONENT32F, size, size, 0);
         *changed |= vtTexture_Resize(&pass->scratch[i], gl, GL_RGBA16UI, size, size, 0);
@@ -101,15 +98,16 @@ static void peelSide(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer*
     }
 }
 
-/// Copies what was drawn into both scratch textures into a level of the pyramid.
+/// Copies what was drawn into both scratch textures to its place in the pyramid: WebGL draws into no texture
+/// that is read.
 static void keepLevel(const vtCubePass* pass, const vtGL* gl, int side, int level)
 {
-    const int size = pass->surfaces.width >> level;
-    gl->ActiveTexture(GL_TEXTURE0);
-    gl->BindTexture(GL_TEXTURE_2D_ARRAY, pass->intervals.name);
+    const int size = pass->surfaces.width;
+    const int x = level == 0 ? 0 : size - (size >> (level - 1)), y = level == 0 ? 0 : size;
+    vtTexture_Bind(&pass->intervals, gl, 0);
     for (int i = 0; i < 2; ++i) {
         gl->ReadBuffer(GL_COLOR_ATTACHMENT0 + (GLenum)i);
-        gl->CopyTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, 2 * side + i, 0, 0, size, size);
+        gl->CopyTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, x, y, 2 * side + i, 0, 0, size >> level, size >> level);
     }
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
 }
@@ -136,7 +134,7 @@ void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer*
     }
     gl->UseProgram(pass->levelProgram);
     vtTexture_Bind(&pass->intervals, gl, 0);
-    for (int level = 1; level < pass->intervals.levels; ++level) {
+    for (int level = 1; pass->surfaces.width >> level > 0; ++level) {
         vtBindFramebuffer(gl, pass->levelFramebuffer, pass->surfaces.width >> level,
                           pass->surfaces.width >> level);
         gl->Uniform1i(pass->levelBelow, level - 1);

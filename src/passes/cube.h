@@ -15,7 +15,7 @@ typedef struct vtCubePass {
     vtTexture depthBuffers[2];
     vtTexture surfaces;  ///< RGBA16UI array, four layers a texel: VT_CUBE_... in constants.h
     vtTexture triangles; ///< RGBA32UI array, those surfaces' triangles
-    vtTexture intervals; ///< RGBA16UI array with mip levels: inner and outer intervals of each axis
+    vtTexture intervals; ///< RGBA16UI array, inner and outer intervals of each axis; its levels: cube.glsl
     vtTexture scratch[2];
 } vtCubePass;
 

@@ -10,33 +10,57 @@ vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique 
     return vtCreateProgram(gl, &vtTechnique_Row(technique)->refract, &pass->programs[technique], error);
 }
 
-vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height, vtError* error)
+vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height,
+                              const vtTexture* surfaceDepth, vtError* error)
 {
     bool changed = vtTexture_Resize(&pass->paths, gl, GL_RGBA32UI, width, height, 0);
     changed |= vtTexture_Resize(&pass->light, gl, GL_RG32UI, width, height, 0);
-    if (!changed) {
-        return vtSucceed(error);
-    }
     vtAttachment colors[] = {{&pass->paths, 0}, {&pass->light, 0}};
-    return vtMakeFramebuffer(gl, "refract", colors, 2, NULL, &pass->framebuffer, error);
+    vtResult result = vtSucceed(error);
+    if (changed) {
+        vtDestroyFramebuffers(gl, &pass->glassFramebuffer, 1);
+        result = vtMakeFramebuffer(gl, "refract", colors, 2, NULL, &pass->framebuffer, error);
+    }
+    if (result == vt_ok && surfaceDepth != NULL && pass->glassFramebuffer == 0) {
+        result =
+            vtMakeFramebuffer(gl, "refract glass", colors, 2, surfaceDepth, &pass->glassFramebuffer, error);
+    }
+    return result;
 }
 
 void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
                         const vtRefractInputs* inputs)
 {
-    vtBindFramebuffer(gl, pass->framebuffer, pass->paths.width, pass->paths.height);
+    const bool onlyGlass = vtTechnique_Row(technique)->surface;
+    vtBindFramebuffer(gl, onlyGlass ? pass->glassFramebuffer : pass->framebuffer, pass->paths.width,
+                      pass->paths.height);
     gl->UseProgram(pass->programs[technique]);
     // Units as VT_REFRACT_SAMPLERS in technique.c names them.
-    const vtTexture* units[] = {inputs->surfaceDepth, inputs->surfaceNormals, inputs->innerDistances,
-                                inputs->layerDepths,  inputs->layerNormals,   inputs->mergedDepths,
-                                inputs->cubeSurfaces, inputs->cubeTriangles,  inputs->intervals,
-                                inputs->triangles};
-    for (int unit = 0; unit < 10; ++unit) {
+    const vtTexture* units[] = {inputs->surface,       inputs->innerDistances, inputs->layerDepths,
+                                inputs->layerNormals,  inputs->mergedDepths,   inputs->cubeSurfaces,
+                                inputs->cubeTriangles, inputs->intervals,      inputs->triangles};
+    for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
         if (units[unit]->name != 0) {
             vtTexture_Bind(units[unit], gl, unit);
         }
     }
+    if (!onlyGlass) {
+        gl->DrawArrays(GL_TRIANGLES, 0, 3);
+        return;
+    }
+    // The triangle lies farther than every surface and as far as no surface: the depth test, before the
+    // shader, leaves out the background.
+    const GLuint background[4] = {0, 0, 0, VT_PATH_BACKGROUND};
+    const GLuint unchanged[4] = {0x3c00, 0, 0, 0}; // a half of 1: transmittance
+    gl->ClearBufferuiv(GL_COLOR, 0, background);
+    gl->ClearBufferuiv(GL_COLOR, 1, unchanged);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthFunc(GL_GREATER);
+    gl->DepthMask(GL_FALSE);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl->DepthMask(GL_TRUE);
+    gl->DepthFunc(GL_LESS);
+    gl->Disable(GL_DEPTH_TEST);
 }
 
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl)
@@ -45,6 +69,7 @@ void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl)
         gl->DeleteProgram(pass->programs[i]);
     }
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
+    vtDestroyFramebuffers(gl, &pass->glassFramebuffer, 1);
     vtTexture_Destroy(&pass->paths, gl);
     vtTexture_Destroy(&pass->light, gl);
     *pass = (vtRefractPass){0};

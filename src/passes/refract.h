@@ -8,14 +8,14 @@
 typedef struct vtRefractPass {
     GLuint programs[vt_techniqueCount]; ///< compiled when first used
     GLuint framebuffer;
+    GLuint glassFramebuffer; ///< the same with the surface pass's depth: only pixels that see glass are drawn
     vtTexture light; ///< RG32UI: four halves, transmittance and light added on the way (red, green, blue)
     vtTexture paths; ///< RGBA32UI: the bits of the last direction (three floats), state (VT_PATH_...)
 } vtRefractPass;
 
 /// What a technique may read; those it needs (its row's samplers, by these names) must exist.
 typedef struct vtRefractInputs {
-    const vtTexture* surfaceDepth;
-    const vtTexture* surfaceNormals;
+    const vtTexture* surface;
     const vtTexture* innerDistances;
     const vtTexture* layerDepths;
     const vtTexture* layerNormals;
@@ -27,7 +27,9 @@ typedef struct vtRefractInputs {
 } vtRefractInputs;
 
 vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error);
-vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height, vtError* error);
+/// surfaceDepth: of the surface pass, of the same size; NULL for a technique that has no use of it.
+vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height,
+                              const vtTexture* surfaceDepth, vtError* error);
 void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
                         const vtRefractInputs* inputs);
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl);

@@ -26,9 +26,9 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
                               vtError* error)
 {
     bool changed = vtTexture_Resize(&pass->depth, gl, GL_DEPTH_COMPONENT32F, width, height, 0);
-    changed |= vtTexture_Resize(&pass->normals, gl, GL_RG32UI, width, height, 0);
+    changed |= vtTexture_Resize(&pass->attributes, gl, GL_RGBA32UI, width, height, 0);
     vtResult result = vtSucceed(error);
-    vtAttachment colors[] = {{&pass->normals, 0}, {&pass->distances, 0}};
+    vtAttachment colors[] = {{&pass->attributes, 0}, {&pass->distances, 0}};
     if (changed) {
         vtDestroyFramebuffers(gl, &pass->distanceFramebuffer, 1); // it holds the depth that is gone
         result = vtMakeFramebuffer(gl, "surface", colors, 1, &pass->depth, &pass->framebuffer, error);
@@ -70,7 +70,7 @@ void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl)
     vtDestroyFramebuffers(gl, &pass->distanceFramebuffer, 1);
     vtTexture_Destroy(&pass->distances, gl);
     vtTexture_Destroy(&pass->depth, gl);
-    vtTexture_Destroy(&pass->normals, gl);
+    vtTexture_Destroy(&pass->attributes, gl);
     gl->DeleteProgram(pass->program);
     gl->DeleteProgram(pass->distanceProgram);
     *pass = (vtSurfacePass){0};
@@ -78,6 +78,6 @@ void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl)
 
 size_t vtSurfacePass_Bytes(const vtSurfacePass* pass)
 {
-    return vtTexture_Bytes(&pass->depth) + vtTexture_Bytes(&pass->normals) +
+    return vtTexture_Bytes(&pass->depth) + vtTexture_Bytes(&pass->attributes) +
            vtTexture_Bytes(&pass->distances);
 }

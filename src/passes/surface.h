@@ -9,10 +9,10 @@
 typedef struct vtSurfacePass {
     GLuint program, distanceProgram;
     GLuint framebuffer, distanceFramebuffer;
-    vtTexture depth;     ///< DEPTH_COMPONENT32F, 1 where there is nothing
-    vtTexture normals;   ///< RG32UI: octahedral normals, interpolated and of the triangle
-    vtTexture distances; ///< R16UI: inner distance, VT_DEPTH_SCALE is the diagonal of the object's box; only
-                         ///< where asked for
+    vtTexture depth;      ///< DEPTH_COMPONENT32F, 1 where there is nothing
+    vtTexture attributes; ///< RG32UI: octahedral normals, interpolated and of the triangle
+    vtTexture distances;  ///< R16UI: inner distance, VT_DEPTH_SCALE is the diagonal of the object's box; only
+                          ///< where asked for
 } vtSurfacePass;
 
 vtResult vtSurfacePass_Create(vtSurfacePass* pass, const vtGL* gl, vtError* error);
