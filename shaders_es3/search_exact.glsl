@@ -15,6 +15,7 @@ struct CubeRay {
     vec3 direction;
     vec3 inverse;
     float end; // parameter where it leaves the side
+    float perspective; // a world distance t is the parameter t / (1 + perspective t)
     int axis;
 };
 
@@ -26,6 +27,7 @@ CubeRay makeCubeRay(vec3 origin, vec3 direction, int axis)
     vec3 scale = vec3(vec2(u_cube.x), VT_CUBE_DEPTH);
     CubeRay ray;
     ray.axis = axis;
+    ray.perspective = b.w / a.w;
     ray.origin = alongAxis(a.xyz / a.w, axis) * scale - vec3(0.5, 0.5, 0.0);
     ray.direction = alongAxis((b.xyz * a.w - a.xyz * b.w) / (a.w * a.w), axis) * scale;
     // Nothing is parallel to a cell's side: a million times the cube's size away is far enough.
@@ -46,7 +48,7 @@ struct TriangleHit {
 // From a triangle near the ray over its neighbours to the one that the ray meets: across the edge beyond
 // which the ray's point in the triangle's plane lies. False where the walk turns back, or ends at a triangle
 // that the ray meets from the wrong side or behind its origin.
-bool walkToHit(uint triangle, vec3 origin, vec3 direction, bool inside, float nearest, float farthest, out TriangleHit hit)
+bool walkToHit(uint triangle, vec3 origin, vec3 direction, bool inside, float nearest, float farthest, float perspective, out TriangleHit hit)
 {
     uint previous = VT_NO_TRIANGLE;
     for (int i = 0; i < MOST_WALK; ++i) {
@@ -61,7 +63,7 @@ bool walkToHit(uint triangle, vec3 origin, vec3 direction, bool inside, float ne
         if (least >= 0.0) {
             hit = TriangleHit(w / sum, triangle);
             float t = dot(w.x * A + w.y * B + w.z * C, direction) / sum;
-            return (sum > 0.0) == inside && sum != 0.0 && t > nearest && t < farthest;
+            return (sum > 0.0) == inside && sum != 0.0 && t > nearest && t < farthest * (1.0 + perspective * t);
         }
         uint next = s.x == least ? a.w : s.y == least ? b.w : c.w;
         if (next == previous || next == VT_NO_TRIANGLE) {
@@ -73,21 +75,22 @@ bool walkToHit(uint triangle, vec3 origin, vec3 direction, bool inside, float ne
     return false;
 }
 
-// The column's next surface along the ray after depth `from`, among those that a ray meets on its way out of
-// (wanted = 1) or into the glass. -1: none.
-int nextSurface(ivec2 texel, int axis, float from, float to, bool mirrored, uint wanted)
+// The column's surface nearest to depth z0, not farther than `before` ahead of it or `behind`, among those that
+// a ray meets on its way out of (wanted = 1) or into the glass (0), or among all (2). -1: none.
+int nearestSurface(ivec2 texel, int axis, float z0, float before, float behind, bool mirrored, uint wanted)
 {
     int groups = (u_cube.y + 3) / 4;
-    float nearest = to - from;
+    float nearest = 1e9;
     int best = -1;
     for (int group = 0; group < groups; ++group) {
         uvec4 surfaces = texelFetch(u_cubeSurfaces, ivec3(texel, axis * groups + group), 0);
         vec4 depths = vec4(surfaces >> 1u);
-        vec4 along = (mirrored ? VT_CUBE_DEPTH - depths : depths) - from;
-        bvec4 fits = equal(surfaces & 1u, uvec4(wanted));
+        vec4 along = (mirrored ? VT_CUBE_DEPTH - depths : depths) - z0;
+        bvec4 kind = equal(surfaces & 1u, uvec4(wanted));
         for (int i = 0; i < 4; ++i) {
-            bool better = fits[i] && surfaces[i] != VT_CUBE_NONE && along[i] > 0.0 && along[i] < nearest;
-            nearest = better ? along[i] : nearest;
+            bool fits = (kind[i] || wanted == 2u) && surfaces[i] != VT_CUBE_NONE;
+            bool better = fits && along[i] > -before && along[i] < behind && abs(along[i]) < nearest;
+            nearest = better ? abs(along[i]) : nearest;
             best = better ? 4 * group + i : best;
         }
     }
@@ -140,7 +143,7 @@ Search startSearch(vec3 origin, vec3 direction, bool inside, int axis)
 int mainAxis(vec3 direction)
 {
     vec3 d = abs(mat3(u_cubeMatrix) * direction * u_cubeExtent.xyz);
-    return u_cube.z == 1 ? 2 : d.x > d.y && d.x > d.z ? 0 : d.y > d.z ? 1 : 2;
+    return u_cube.z == 1 ? 0 : d.x > d.y && d.x > d.z ? 0 : d.y > d.z ? 1 : 2;
 }
 
 SurfaceHit surfaceAt(TriangleHit found)
@@ -163,6 +166,7 @@ vec3 tracePath(SurfaceHit hit, vec3 direction, out int status, out int events, o
     float nearest = 1e-5 * u_cubeExtent.w;
     float cellDepth = VT_CUBE_DEPTH / float(u_cube.x);
     int groups = (u_cube.y + 3) / 4;
+    int rescue = 0;
     int axis = 0, tried = 0, steps = 2000;
     bool met = true, restart = true;
     Search s;
@@ -224,19 +228,24 @@ vec3 tracePath(SurfaceHit hit, vec3 direction, out int status, out int events, o
         bool found = false;
         TriangleHit meeting;
         if (!free) {
+            // A rescue tries the cell's four columns and all their surfaces.
+            bool wide = rescue > 0;
             vec2 middle = s.ray.origin.xy + 0.5 * (t0 + min(t1, s.ray.end)) * s.ray.direction.xy;
-            ivec2 texel = ivec2(floor(middle + 0.5));
-            uint wanted = inside != s.mirrored ? 1u : 0u;
-            int surface = nextSurface(texel, s.ray.axis, z0 - WINDOW * cellDepth, z1 + WINDOW * cellDepth, s.mirrored, wanted);
+            ivec2 corner = s.cell + ivec2((rescue - 1) & 1, (rescue - 1) >> 1);
+            ivec2 texel = wide ? corner : ivec2(floor(middle + 0.5));
+            uint wanted = wide ? 2u : inside != s.mirrored ? 1u : 0u;
+            float window = wide ? 1e9 : WINDOW * cellDepth;
+            int surface = nearestSurface(texel, s.ray.axis, z0, window, z1 - z0 + window, s.mirrored, wanted);
             if (surface >= 0) {
                 uint triangle = texelFetch(u_cubeTriangles, ivec3(texel, s.ray.axis * groups + surface / 4), 0)[surface % 4];
                 float farthest = min(t1, s.ray.end) + REACH * cellDepth / s.slopeZ;
-                found = walkToHit(triangle, hit.position, direction, inside, nearest, farthest, meeting);
+                found = walkToHit(triangle, hit.position, direction, inside, nearest, farthest, s.ray.perspective, meeting);
             }
         }
         if (found) {
             hit = surfaceAt(meeting);
             met = true;
+            rescue = 0;
             continue;
         }
         // Has it come out, or in, unnoticed?
@@ -247,6 +256,11 @@ vec3 tracePath(SurfaceHit hit, vec3 direction, out int status, out int events, o
             status = VT_PATH_EXITED;
             break;
         }
+        if (doubtful && !over && rescue < (u_cube.z == 1 ? 4 : 0)) {
+            ++rescue;
+            continue;
+        }
+        rescue = 0;
         if (doubtful) {
             if (++tried == u_cube.z) {
                 break;

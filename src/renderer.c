@@ -211,16 +211,16 @@ static void setCube(vtFrameUniforms* uniforms, const vtFrame* frame, const vtCub
     uniforms->cubeExtent[3] = diagonal;
 }
 
-/// World coordinates to those of a frustum, 0 to 1.
+/// World coordinates to those of a frustum, 0 to 1: depth first, as the cube's first axis has it.
 static void setEyeLayers(vtFrameUniforms* uniforms, const vtFrustum* f)
 {
     const float across = 1.0f / (f->right - f->left), up = 1.0f / (f->top - f->bottom);
     const float depth = f->far / (f->far - f->near);
     for (int column = 0; column < 4; ++column) {
         const float* p = uniforms->worldToCamera[column];
-        uniforms->cubeMatrix[column][0] = across * (p[0] - f->left * p[2]);
-        uniforms->cubeMatrix[column][1] = up * (p[1] - f->bottom * p[2]);
-        uniforms->cubeMatrix[column][2] = depth * (p[2] - f->near * p[3]);
+        uniforms->cubeMatrix[column][1] = across * (p[0] - f->left * p[2]);
+        uniforms->cubeMatrix[column][2] = up * (p[1] - f->bottom * p[2]);
+        uniforms->cubeMatrix[column][0] = depth * (p[2] - f->near * p[3]);
         uniforms->cubeMatrix[column][3] = p[2];
     }
 }
