@@ -25,7 +25,8 @@ vec4 meetInner(vec4 a, vec4 b)
     vec4 kept = keepLongest(NO_INNER, meet(a.xy, b.xy));
     kept = keepLongest(kept, meet(a.xy, b.zw));
     kept = keepLongest(kept, meet(a.zw, b.xy));
-    return keepLongest(kept, meet(a.zw, b.zw));
+    kept = keepLongest(kept, meet(a.zw, b.zw));
+    return kept.z < kept.x ? kept.zwxy : kept; // the nearer one first
 }
 
 // Intervals come in the order of their starts; `gap` parts them where it is widest.

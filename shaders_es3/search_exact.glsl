@@ -3,7 +3,7 @@ uniform usampler2DArray u_cubeSurfaces;  // four layers a texel
 uniform usampler2DArray u_cubeTriangles; // of those surfaces
 uniform usampler2DArray u_intervals;     // pyramid of inner (even) and outer (odd) intervals of each side
 
-const int MOST_WALK = 8; // triangles
+const int MOST_WALK = 16; // triangles
 const float SLACK = 4.0; // cells
 const float WINDOW = 4.0; // cells
 const float REACH = 8.0; // cells
@@ -136,7 +136,7 @@ Search startSearch(vec3 origin, vec3 direction, bool inside, int axis)
     s.positive = ivec2(greaterThan(s.ray.direction.xy, vec2(0.0)));
     s.slice = 2 * axis + (inside ? 0 : 1);
     s.cell = clamp(ivec2(floor(s.ray.origin.xy)), ivec2(0), ivec2(u_cube.x - 2));
-    s.level = min(2, u_cube.w);
+    s.level = 0;
     return s;
 }
 
@@ -167,7 +167,7 @@ vec3 tracePath(SurfaceHit hit, vec3 direction, out int status, out int events, o
     float cellDepth = VT_CUBE_DEPTH / float(u_cube.x);
     int groups = (u_cube.y + 3) / 4;
     int rescue = 0;
-    int axis = 0, tried = 0, steps = 2000;
+    int axis = 0, tried = 0, steps = 0;
     bool met = true, restart = true;
     Search s;
     events = 0;
@@ -194,6 +194,7 @@ vec3 tracePath(SurfaceHit hit, vec3 direction, out int status, out int events, o
         if (restart) {
             s = startSearch(hit.position, direction, inside, axis);
             restart = false;
+            steps = u_search.y;
         }
         float t0, t1, z0, z1;
         vec2 bounds, exits;
@@ -210,20 +211,33 @@ vec3 tracePath(SurfaceHit hit, vec3 direction, out int status, out int events, o
             t1 = min(exits.x, exits.y);
             z0 = s.originZ + t0 * s.slopeZ;
             z1 = s.originZ + min(t1, s.ray.end) * s.slopeZ;
-            free = isFree(b, z0, z1, s.start, inside);
+            // Only cells let a ray off the surface it starts on: what a tile allows, all cells below must allow.
+            free = isFree(b, z0, z1, s.level == 0 ? s.start : 0.0, inside);
             if ((free ? t1 >= s.ray.end : s.level == 0) || --steps < 0) {
                 break;
             }
-            // Into the next tile, or down.
+            // Into the next tile, or down. Along the side that is crossed, the cell is the one that a walk
+            // from cell to cell would come to, by the same numbers, columns before rows where they tie.
             bool across = exits.x <= exits.y;
+            vec3 other = across ? vec3(s.ray.origin.y, s.ray.direction.y, s.ray.inverse.y)
+                                : vec3(s.ray.origin.x, s.ray.direction.x, s.ray.inverse.x);
+            int ahead = across ? s.positive.y : s.positive.x;
+            float side = floor(other.x + t1 * other.y);
+            float enter = (side + float(1 - ahead) - other.x) * other.z, leave = (side + float(ahead) - other.x) * other.z;
+            float back = (across ? enter >= t1 : enter > t1) ? 1.0 : 0.0;
+            float on = (across ? leave < t1 : leave <= t1) ? 1.0 : 0.0;
+            int along = int(side) + int(on - back) * (2 * ahead - 1);
             ivec2 corner = tile << s.level;
-            ivec2 next = clamp(ivec2(floor(s.ray.origin.xy + t1 * s.ray.direction.xy)), corner, corner + (1 << s.level) - 1);
+            ivec2 next = clamp(ivec2(along), corner, corner + (1 << s.level) - 1);
             ivec2 beyond = ivec2(bounds) - 1 + s.positive;
             next = across ? ivec2(beyond.x, next.y) : ivec2(next.x, beyond.y);
             // Up only out of the tile above: the way down was there for a reason.
             int up = (next >> (s.level + 1)) == (s.cell >> (s.level + 1)) ? s.level : min(s.level + 1, u_cube.w);
             s.cell = free ? next : s.cell;
             s.level = free ? up : s.level - 1;
+        }
+        if (steps < 0) {
+            break;
         }
         bool found = false;
         TriangleHit meeting;

@@ -1,72 +1,7 @@
 // Whole frames against what must hold whatever the search does.
 #include "base/image.h"
 #include "base/math.h"
-#include "context.h"
-#include "testing.h"
-
-enum { side = 128 };
-
-typedef struct Fixture {
-    vtContext context;
-    vtRenderer* renderer;
-    uint8_t pixels[4 * side * side];
-    float directions[3 * side * side];
-} Fixture;
-
-static int setUp(void** state)
-{
-    Fixture* fixture = calloc(1, sizeof *fixture);
-    vtError error;
-    assert_ok(vtCreateContext(vt_backendAuto, &fixture->context, &error), error);
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
-              error);
-    *state = fixture;
-    return 0;
-}
-
-static int tearDown(void** state)
-{
-    Fixture* fixture = *state;
-    vtDestroyRenderer(fixture->renderer);
-    vtDestroyContext(&fixture->context);
-    free(fixture);
-    return 0;
-}
-
-static void setShape(vtRenderer* renderer, const char* name)
-{
-    vtMesh mesh;
-    vtError error;
-    assert_ok(vtCreateShape(name, &mesh, &error), error);
-    assert_ok(vtComputeInnerDistances(&mesh, &error), error);
-    assert_ok(vtRenderer_SetMesh(renderer, &mesh, &error), error);
-    vtDestroyMesh(&mesh);
-}
-
-static void setEnvironment(vtRenderer* renderer, const char* name)
-{
-    vtEnvironment environment;
-    vtError error;
-    assert_ok(vtCreateEnvironment(name, &environment, &error), error);
-    assert_ok(vtRenderer_SetEnvironment(renderer, &environment, &error), error);
-}
-
-static vtFrame smallFrame(void)
-{
-    vtFrame frame = vtDefaultFrame();
-    frame.technique = vt_techniqueLayered;
-    frame.width = frame.height = side;
-    return frame;
-}
-
-/// Draws and reads both the picture and the directions.
-static void draw(Fixture* fixture, const vtFrame* frame)
-{
-    vtError error;
-    assert_true(frame->width * frame->height <= side * side);
-    assert_ok(vtRenderer_DrawImage(fixture->renderer, frame, fixture->pixels, &error), error);
-    assert_ok(vtRenderer_ReadDirections(fixture->renderer, fixture->directions, &error), error);
-}
+#include "rendering.h"
 
 /// Unit direction of pixel (i, j), by the documented formula.
 static vtVec3 eyeRay(const vtFrame* frame, int i, int j)
@@ -101,7 +36,7 @@ static void indexOneLeavesTheEnvironmentBare(void** state)
             if (!vtTechnique_Info((vtTechnique)technique)->refracts) {
                 continue; // it only blends, whatever the index
             }
-            vtFrame frame = smallFrame();
+            vtFrame frame = smallFrame(vt_techniqueLayered);
             frame.technique = (vtTechnique)technique;
             frame.transmittance = 1.0f;
             frame.ior = 1.0f;
@@ -140,7 +75,7 @@ static void whiteEnvironmentStaysWhite(void** state)
     assert_ok(vtRenderer_SetEnvironment(fixture->renderer, &environment, &error), error);
     for (int i = 0; vtShapeName(i) != NULL; ++i) {
         setShape(fixture->renderer, vtShapeName(i));
-        vtFrame frame = smallFrame();
+        vtFrame frame = smallFrame(vt_techniqueLayered);
         draw(fixture, &frame);
         for (int p = 0; p < 4 * side * side; ++p) {
             assert_int_equal(fixture->pixels[p], 255);
@@ -153,7 +88,7 @@ static void sphereFollowsTheClosedForm(Fixture* fixture, vtTechnique technique)
 {
     setShape(fixture->renderer, "sphere");
     setEnvironment(fixture->renderer, "checker");
-    vtFrame frame = smallFrame();
+    vtFrame frame = smallFrame(vt_techniqueLayered);
     frame.technique = technique;
     draw(fixture, &frame);
     int glass = 0, within = 0, lost = 0;
@@ -222,7 +157,7 @@ static void slabKeepsTheDirection(void** state)
     assert_int_equal(mesh.openEdgeCount, 0);
     assert_ok(vtRenderer_SetMesh(fixture->renderer, &mesh, &error), error);
     vtDestroyMesh(&mesh);
-    vtFrame frame = smallFrame();
+    vtFrame frame = smallFrame(vt_techniqueLayered);
     frame.view = (vtView){{0.7f, 0.5f, 2.0f}, {0, 0, 0}, 45.0f};
     draw(fixture, &frame);
     for (int p = 0; p < side * side; ++p) {
@@ -238,7 +173,7 @@ static void convexNeedsTwoLayersOnly(void** state)
     const char* shapes[] = {"sphere", "diamond"};
     for (int i = 0; i < 2; ++i) {
         setShape(fixture->renderer, shapes[i]);
-        vtFrame frame = smallFrame();
+        vtFrame frame = smallFrame(vt_techniqueLayered);
         frame.layers = 2;
         draw(fixture, &frame);
         float* two = malloc(sizeof fixture->directions);
@@ -261,7 +196,7 @@ static void everyDirectionIsUnitLostOrBackground(void** state)
     for (int i = 0; vtShapeName(i) != NULL; ++i) {
         setShape(fixture->renderer, vtShapeName(i));
         for (int layers = 1; layers <= VT_MAX_LAYERS; layers += 5) {
-            vtFrame frame = smallFrame();
+            vtFrame frame = smallFrame(vt_techniqueLayered);
             frame.layers = layers;
             draw(fixture, &frame);
             for (int p = 0; p < side * side; ++p) {
@@ -288,7 +223,7 @@ static void strangeCamerasAreDrawn(void** state)
         {{0, 0, 3}, {0, 0, 0}, 170},
     };
     for (size_t i = 0; i < sizeof views / sizeof views[0]; ++i) {
-        vtFrame frame = smallFrame();
+        vtFrame frame = smallFrame(vt_techniqueLayered);
         frame.view = views[i];
         draw(fixture, &frame);
         for (int p = 0; p < 3 * side * side; ++p) {
@@ -306,7 +241,7 @@ static void extremeSettingsAreDrawn(void** state)
     } cases[] = {{1, 1, 1, 1, 0, 1, 0},      {128, 1, 16, 1000, 32, 64, 16}, {1, 128, 3, 7, 1, 2, 16},
                  {64, 64, 16, 50, 8, 64, 0}, {37, 91, 5, 50, 8, 8, 1000},    {128, 128, 4, 50, 8, 8, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        vtFrame frame = smallFrame();
+        vtFrame frame = smallFrame(vt_techniqueLayered);
         frame.width = cases[i].width;
         frame.height = cases[i].height;
         frame.layers = cases[i].layers;
@@ -323,7 +258,7 @@ static void pictureDoesNotDependOnTheFramesBefore(void** state)
 {
     Fixture* fixture = *state;
     setShape(fixture->renderer, "knot");
-    vtFrame frame = smallFrame();
+    vtFrame frame = smallFrame(vt_techniqueLayered);
     draw(fixture, &frame);
     uint8_t* first = malloc(sizeof fixture->pixels);
     memcpy(first, fixture->pixels, sizeof fixture->pixels);
@@ -355,7 +290,7 @@ static void twoRenderersLiveSideBySide(void** state)
     assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &second, &error), error);
     setShape(fixture->renderer, "goblet");
     setEnvironment(fixture->renderer, "sky");
-    vtFrame frame = smallFrame(), otherFrame = smallFrame();
+    vtFrame frame = smallFrame(vt_techniqueLayered), otherFrame = smallFrame(vt_techniqueLayered);
     otherFrame.layers = 2;
     otherFrame.width = 40;
     draw(fixture, &frame);
@@ -380,7 +315,7 @@ static void layersAlternateBetweenFrontAndBack(void** state)
 {
     Fixture* fixture = *state;
     setShape(fixture->renderer, "sphere");
-    vtFrame frame = smallFrame();
+    vtFrame frame = smallFrame(vt_techniqueLayered);
     frame.view = (vtView){{0, 0, 3}, {0, 0, 0}, 45};
     frame.output = vt_outputLayerNormal;
     const int centre = 4 * (side / 2 * side + side / 2);
@@ -400,7 +335,7 @@ static void transparentBackgroundLeavesTheGlassAsItIs(void** state)
     Fixture* fixture = *state;
     setShape(fixture->renderer, "knot");
     setEnvironment(fixture->renderer, "sky");
-    vtFrame frame = smallFrame();
+    vtFrame frame = smallFrame(vt_techniqueLayered);
     draw(fixture, &frame);
     uint8_t* opaque = malloc(sizeof fixture->pixels);
     memcpy(opaque, fixture->pixels, sizeof fixture->pixels);
@@ -427,7 +362,7 @@ static void exposureMultipliesLinearLight(void** state)
     assert_ok(vtRenderer_SetEnvironment(fixture->renderer, &environment, &error), error);
     setShape(fixture->renderer, "sphere");
     for (int ev = -1; ev <= 2; ++ev) {
-        vtFrame frame = smallFrame();
+        vtFrame frame = smallFrame(vt_techniqueLayered);
         frame.exposure = (float)ev;
         draw(fixture, &frame);
         for (int c = 0; c < 3; ++c) {
@@ -472,7 +407,7 @@ static void severalSamplesAreTheMeanOfEach(void** state)
     setEnvironment(fixture->renderer, "studio");
     const vtTechnique techniques[] = {vt_techniqueLayered, vt_techniqueKayThickness, vt_techniqueWyman};
     for (int i = 0; i < 6; ++i) {
-        vtFrame frame = smallFrame();
+        vtFrame frame = smallFrame(vt_techniqueLayered);
         frame.technique = techniques[i / 2];
         frame.transparentBackground = i % 2 == 1;
         frame.exposure = 0.5f;
@@ -504,7 +439,7 @@ static void samplesAddUpOverCalls(void** state)
     setShape(fixture->renderer, "goblet");
     setEnvironment(fixture->renderer, "sky");
     uint8_t* wanted = malloc(pixelBytes);
-    vtFrame frame = smallFrame();
+    vtFrame frame = smallFrame(vt_techniqueLayered);
     frame.samples = sampleCount;
     draw(fixture, &frame);
     memcpy(wanted, fixture->pixels, pixelBytes);
@@ -535,7 +470,7 @@ static void whateverChangesStartsAnew(void** state)
     for (int i = 0; i < changes; ++i) {
         setShape(fixture->renderer, "torus");
         setEnvironment(fixture->renderer, "studio");
-        vtFrame before = smallFrame(), after = smallFrame();
+        vtFrame before = smallFrame(vt_techniqueLayered), after = smallFrame(vt_techniqueLayered);
         after.backSurface = vt_backFarthest;
         after.technique = before.technique = vt_techniqueWyman;
         before.samples = first;
@@ -583,7 +518,7 @@ static void otherOutputsTakeOneSample(void** state)
     setShape(fixture->renderer, "knot");
     uint8_t* wanted = malloc(pixelBytes);
     for (int output = vt_outputAnalysis; output <= vt_outputLayerNormal; ++output) {
-        vtFrame frame = smallFrame();
+        vtFrame frame = smallFrame(vt_techniqueLayered);
         frame.output = (vtOutput)output;
         draw(fixture, &frame);
         memcpy(wanted, fixture->pixels, pixelBytes);
@@ -599,13 +534,13 @@ static void badFramesDrawNothing(void** state)
 {
     Fixture* fixture = *state;
     vtError error;
-    vtFrame frame = smallFrame();
+    vtFrame frame = smallFrame(vt_techniqueLayered);
     frame.layers = 17;
     memset(fixture->pixels, 7, sizeof fixture->pixels);
     assert_int_equal(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error),
                      vt_errorArgument);
     assert_int_equal(fixture->pixels[0], 7);
-    frame = smallFrame();
+    frame = smallFrame(vt_techniqueLayered);
     frame.samples = 0;
     assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
     assert_string_equal(error.message, "samples is 0; it must be from 1 to 4096");

@@ -1,0 +1,69 @@
+// A renderer with room for a small picture: what the tests that draw share.
+#pragma once
+
+#include "context.h"
+#include "testing.h"
+
+enum { side = 128 };
+
+typedef struct Fixture {
+    vtContext context;
+    vtRenderer* renderer;
+    uint8_t pixels[4 * side * side];
+    float directions[3 * side * side];
+} Fixture;
+
+static inline int setUp(void** state)
+{
+    Fixture* fixture = calloc(1, sizeof *fixture);
+    vtError error;
+    assert_ok(vtCreateContext(vt_backendAuto, &fixture->context, &error), error);
+    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
+              error);
+    *state = fixture;
+    return 0;
+}
+
+static inline int tearDown(void** state)
+{
+    Fixture* fixture = *state;
+    vtDestroyRenderer(fixture->renderer);
+    vtDestroyContext(&fixture->context);
+    free(fixture);
+    return 0;
+}
+
+static inline void setShape(vtRenderer* renderer, const char* name)
+{
+    vtMesh mesh;
+    vtError error;
+    assert_ok(vtCreateShape(name, &mesh, &error), error);
+    assert_ok(vtComputeInnerDistances(&mesh, &error), error);
+    assert_ok(vtRenderer_SetMesh(renderer, &mesh, &error), error);
+    vtDestroyMesh(&mesh);
+}
+
+static inline void setEnvironment(vtRenderer* renderer, const char* name)
+{
+    vtEnvironment environment;
+    vtError error;
+    assert_ok(vtCreateEnvironment(name, &environment, &error), error);
+    assert_ok(vtRenderer_SetEnvironment(renderer, &environment, &error), error);
+}
+
+static inline vtFrame smallFrame(vtTechnique technique)
+{
+    vtFrame frame = vtDefaultFrame();
+    frame.technique = technique;
+    frame.width = frame.height = side;
+    return frame;
+}
+
+/// Draws and reads both the picture and the directions.
+static inline void draw(Fixture* fixture, const vtFrame* frame)
+{
+    vtError error;
+    assert_true(frame->width * frame->height <= side * side);
+    assert_ok(vtRenderer_DrawImage(fixture->renderer, frame, fixture->pixels, &error), error);
+    assert_ok(vtRenderer_ReadDirections(fixture->renderer, fixture->directions, &error), error);
+}
