@@ -1,4 +1,9 @@
-// Follows the path of each pixel that sees glass, event by event, until it has left the object for good.
+// Follows the path of each pixel that sees glass, event by event, until it has left the object for good. A
+// round of the loop meets a surface, or goes to the next cell that may hold one and tries it.
+
+// Far more rounds than paths take, so that no fault of the data hangs the GPU.
+const int MOST_ROUNDS = 512;
+
 void main()
 {
     SurfaceHit hit;
@@ -7,8 +12,65 @@ void main()
         writeBackground();
         return;
     }
-    int status, events;
-    bool anyReflected;
-    direction = tracePath(hit, direction, status, events, anyReflected);
+    bool inside = dot(hit.flatNormal, direction) > 0.0; // an eye within the glass sees its back faces
+    bool isMet = true, isNew = true, anyReflected = false;
+    int status = VT_PATH_LOST, events = 0, axis = 0, tried = 0, attempt = 0;
+    // Layers from the eye have no second side to ask.
+    int attempts = u_cube.z == 1 ? 4 : 0;
+    Search s;
+    for (int round = 0; round < MOST_ROUNDS; ++round) {
+        if (isMet) {
+            if (events >= u_search.w) {
+                break;
+            }
+            bool reflected;
+            direction = meetSurface(direction, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
+            anyReflected = anyReflected || reflected;
+            ++events;
+            if (inside && events >= u_search.w) {
+                break;
+            }
+            axis = mainAxis(direction);
+            tried = 0;
+            isMet = false;
+            isNew = true;
+        }
+        if (isNew) {
+            s = startSearch(hit.position, direction, axis);
+            isNew = false;
+        }
+        walkTiles(s, inside);
+        if (s.steps < 0) {
+            break;
+        }
+        TriangleHit found;
+        if (!s.isFree && tryCell(s, hit.position, direction, inside, attempt, found)) {
+            hit = surfaceAt(found);
+            isMet = true;
+            attempt = 0;
+            continue;
+        }
+        // A ray that has come out of the glass, or into it, without a surface has missed a wall too steep for
+        // this side: more of the cell's surfaces are tried, then the next side.
+        bool over = s.leave >= s.ray.end;
+        bool crossed = !s.isFree && fits(readIntervals(s, s.cell, 0, !inside), s.low, s.high, 0.0, !inside);
+        if (over && !inside && !crossed) {
+            status = VT_PATH_EXITED;
+            break;
+        }
+        if (crossed && !over && attempt < attempts) {
+            ++attempt;
+            continue;
+        }
+        attempt = 0;
+        if (crossed || over) {
+            if (++tried == u_cube.z) {
+                break;
+            }
+            axis = axis == 2 ? 0 : axis + 1;
+            isNew = true;
+        }
+        s.cell += s.exits.x <= s.exits.y ? ivec2(2 * s.positive.x - 1, 0) : ivec2(0, 2 * s.positive.y - 1);
+    }
     writePath(direction, status, events, anyReflected);
 }

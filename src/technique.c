@@ -138,7 +138,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                         .vertex = {&vtChunk_screen_vert},
                         .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
                                      &vtChunk_first_surface, &vtChunk_triangles, &vtChunk_cube,
-                                     &vtChunk_search_exact, &vtChunk_refract_exact_frag},
+                                     &vtChunk_walk_mesh, &vtChunk_search_exact, &vtChunk_refract_exact_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
 };

@@ -1,3 +1,11 @@
+// This work is based on:
+//   Dani Lischinski, Ari Rappoport. Image-Based Rendering for Non-Diffuse Synthetic Scenes. EGWR 1998: the
+//   layered depth cube, layers along three axes;
+//   Cass Everitt. Interactive Order-Independent Transparency. NVIDIA, 2001: how they are peeled;
+//   the pyramids of Tevs 2008 and Hofmann 2017 (shaders_es3/search_exact.glsl).
+// Departures: a surface is its depth, the side it shows and the number of its triangle; the cube is turned so
+// that it sees little of the mesh edge-on (scene/cube.c); its pyramid holds intervals
+// (shaders_es3/intervals.*).
 #include "passes/cube.h"
 
 #include "base/error.h"
@@ -47,7 +55,9 @@ vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layer
                            vtError* error)
 {
     const int groups = (layers + 3) / 4;
-    *changed = vtTexture_Resize(&pass->surfaces, gl, GL_RGBA16UI, size, size, sides * groups);
+    *changed = pass->layers != layers;
+    pass->layers = layers;
+    *changed |= vtTexture_Resize(&pass->surfaces, gl, GL_RGBA16UI, size, size, sides * groups);
     *changed |= vtTexture_Resize(&pass->triangles, gl, GL_RGBA32UI, size, size, sides * groups);
     // Half as high again: the levels above the first stand side by side on top of it.
     *changed |= vtTexture_Resize(&pass->intervals, gl, GL_RGBA16UI, size, size + size / 2, 2 * sides);
@@ -83,7 +93,7 @@ static void peelSide(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer*
     gl->Uniform1i(pass->peelAxis, side);
     vtBindFramebuffer(gl, pass->startFramebuffer, size, size);
     gl->ClearBufferfv(GL_DEPTH, 0, &near);
-    for (int layer = 0; layer < 4 * groups; ++layer) {
+    for (int layer = 0; layer < pass->layers; ++layer) {
         int channel = layer % 4;
         vtBindFramebuffer(gl, pass->peelFramebuffers[side * groups + layer / 4][layer % 2], size, size);
         if (channel == 0) {

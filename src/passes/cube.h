@@ -4,19 +4,20 @@
 #include "gl/program.h"
 #include "gl/target.h"
 
-/// Layers of the mesh's triangles along the axes of a cube, or from the eye, and the interval pyramid over
-/// them, which a search walks.
+/// The layered depth cube: layers of the mesh along three axes, made once a mesh, or along one, from the eye,
+/// made anew for each view of a mesh that changes; and the interval pyramid over them, which a search walks.
 typedef struct vtCubePass {
     GLuint peelProgram, firstProgram, levelProgram;
     GLint peelAxis, firstAxis, levelAxis, levelBelow;
     GLuint startFramebuffer;
     GLuint peelFramebuffers[3 * VT_MAX_LAYER_GROUPS][2]; ///< by slice and by depth buffer
     GLuint levelFramebuffer;
+    int layers;
     vtTexture depthBuffers[2];
-    vtTexture surfaces;  ///< RGBA16UI array, four layers a texel: VT_CUBE_... in constants.h
-    vtTexture triangles; ///< RGBA32UI array, those surfaces' triangles
-    vtTexture intervals; ///< RGBA16UI array, inner and outer intervals of each axis; its levels: cube.glsl
-    vtTexture scratch[2];
+    vtTexture surfaces;   ///< RGBA16UI array, four layers a texel: VT_CUBE_... in constants.h
+    vtTexture triangles;  ///< RGBA32UI array, those surfaces' triangles
+    vtTexture intervals;  ///< RGBA16UI array, inner and outer intervals of each axis; its levels: cube.glsl
+    vtTexture scratch[2]; ///< RGBA16UI: a level of the pyramid while it is drawn
 } vtCubePass;
 
 vtResult vtCubePass_Create(vtCubePass* pass, const vtGL* gl, vtError* error);

@@ -156,8 +156,10 @@ static void extremeSettingsAreDrawn(void** state)
     const struct {
         int width, height, layers, steps, events, cubeSize, topLevel;
         float ior;
-    } cases[] = {{1, 1, 1, 1, 1, 32, 0, 1.5f},       {128, 1, 16, 1000, 64, 32, 9, 4.0f},
-                 {1, 128, 3, 7, 2, 512, 1, 1.0f},    {64, 64, 2, 50, 64, 32, 9, 2.4f},
+    } cases[] = {{1, 1, 1, 1, 1, 32, 0, 1.5f},
+                 {128, 1, 16, 1000, 64, 32, 9, 4.0f},
+                 {1, 128, 3, 7, 2, 512, 1, 1.0f},
+                 {64, 64, 2, 50, 64, 32, 9, 2.4f},
                  {37, 91, 5, 1000, 8, 1024, 9, 1.1f}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         for (int source = vt_layersFromCube; source <= vt_layersFromEye; ++source) {
