@@ -105,7 +105,7 @@ const isLayer = (output) => output.startsWith('layer');
 function showOutput(output, store, page) {
   const isElsewhere = isLayer(output) && !peels(store.state.technique);
   store.set(isElsewhere ? { output, technique: 'layered' } : { output });
-  if (isElsewhere) page.note('The layers are those of Layered');
+  if (isElsewhere) page.note('The technique is now Layered, whose layers these are');
 }
 
 function fillTechniques(store, page) {
