@@ -160,7 +160,7 @@ left.addEventListener('progress', ({ detail }) => {
 left.addEventListener('render-scale', ({ detail }) => {
   const { pixelWidth, pixelHeight, preset, layers, steps, maxEvents, renderedDpr, reportedDpr, reason } = detail;
   const share = Math.round((100 * renderedDpr) / Math.min(2, reportedDpr ?? window.devicePixelRatio));
-  element('size').textContent = `${pixelWidth} × ${pixelHeight} (${share} %) · ${layers} layers · ${steps} steps`;
+  element('size').textContent = `${pixelWidth} × ${pixelHeight}${share < 100 ? ` (${share} %)` : ''} · ${layers} layers · ${steps} steps`;
   element('size').title = `preset ${preset}, ${maxEvents} events`;
   const { resolved } = store.state;
   const isSame = resolved.layers === layers && resolved.steps === steps && resolved.events === maxEvents;
