@@ -21,8 +21,8 @@ const events = [
   {
     name: 'render-scale',
     detail:
-      '{ reportedDpr: number; renderedDpr: number; minimumDpr: number; pixelWidth: number; pixelHeight: number; layers: number; steps: number; reason: string }',
-    description: 'The quality in force has changed.',
+      '{ reportedDpr: number; renderedDpr: number; minimumDpr: number; pixelWidth: number; pixelHeight: number; preset: string; layers: number; steps: number; maxEvents: number; reason: string }',
+    description: 'The quality in force has changed; what the preset decides as it decided.',
   },
 ];
 

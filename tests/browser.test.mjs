@@ -4,54 +4,29 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
-import { dirname, extname, join, resolve } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { cube, glb, gltf } from '../scripts/glb.mjs';
+import { chromiumPath, launch, serve, skipWithout } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
 const data = resolve(process.env.VITRINE_DATA ?? join(here, '../../shared/data'));
-const chromiumPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const screenshots = join(here, '../build/screenshots');
 
 const modules = await Promise.all(['playwright-core', 'pixelmatch', 'pngjs'].map((name) => import(name))).catch(() => null);
-const missing = [
+const skip = skipWithout(
   [modules, "node modules (run 'npm ci' in tests/)"],
   [existsSync(join(site, 'vitrine.wasm')), site],
   [existsSync(binary), binary],
   [existsSync(chromiumPath), chromiumPath],
-].filter(([there]) => !there).map(([, name]) => name);
-const skip = missing.length > 0 && `missing: ${missing.join(', ')}`;
-const [{ chromium }, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
+);
+const [, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
 
-// Mesa's llvmpipe is the faster of the two software GPUs; SwiftShader is Chromium's own.
-const llvmpipe = ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'];
-const swiftShader = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 const wide = { width: 800, height: 420 };
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
-
-function launch(gpu) {
-  const quiet = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update'];
-  const args = ['--no-sandbox', '--disable-sync', ...quiet, ...gpu];
-  return chromium.launch({ executablePath: chromiumPath, args });
-}
-
-function startServer() {
-  const server = createServer((request, response) => {
-    const { pathname } = new URL(request.url, 'http://localhost');
-    const file = join(site, pathname === '/' ? 'index.html' : pathname);
-    if (!file.startsWith(site) || !existsSync(file)) {
-      response.writeHead(404).end();
-      return;
-    }
-    response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' });
-    response.end(readFileSync(file));
-  });
-  return new Promise((ready) => server.listen(0, '127.0.0.1', () => ready(server)));
-}
 
 /** Waits until nothing is being drawn and nothing waits to be. */
 function settle(page) {
@@ -83,43 +58,14 @@ function difference(a, b) {
   return (100 * pixelmatch(a.data, b.data, null, a.width, a.height, { threshold: 0.1 })) / (a.width * a.height);
 }
 
-function glbCube() {
-  const positions = [];
-  for (let i = 0; i < 8; ++i) positions.push(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-  const indices = [];
-  for (const [a, b, c, d] of [[4, 5, 7, 6], [1, 0, 2, 3], [5, 1, 3, 7], [0, 4, 6, 2], [6, 7, 3, 2], [0, 1, 5, 4]]) {
-    indices.push(a, b, c, a, c, d);
-  }
-  const body = Buffer.concat([Buffer.from(new Float32Array(positions).buffer), Buffer.from(new Uint16Array(indices).buffer)]);
-  const json = Buffer.from(JSON.stringify({
-    asset: { version: '2.0' },
-    buffers: [{ byteLength: body.length }],
-    bufferViews: [{ buffer: 0, byteLength: 96 }, { buffer: 0, byteOffset: 96, byteLength: 72 }],
-    accessors: [
-      { bufferView: 0, componentType: 5126, count: 8, type: 'VEC3', min: [-1, -1, -1], max: [1, 1, 1] },
-      { bufferView: 1, componentType: 5123, count: 36, type: 'SCALAR' },
-    ],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
-    nodes: [{ mesh: 0 }],
-    scenes: [{ nodes: [0] }],
-    scene: 0,
-  }));
-  const padded = Buffer.concat([json, Buffer.alloc((4 - (json.length % 4)) % 4, ' ')]);
-  const words = (...numbers) => Buffer.from(new Uint32Array(numbers).buffer);
-  return Buffer.concat([
-    words(0x46546c67, 2, 12 + 8 + padded.length + 8 + body.length),
-    words(padded.length, 0x4e4f534a), padded, words(body.length, 0x004e4942), body,
-  ]);
-}
-
 describe('the page', { skip }, () => {
   let server, browser, folder;
 
   before(async () => {
     mkdirSync(screenshots, { recursive: true });
     folder = mkdtempSync(join(tmpdir(), 'vitrine-web-'));
-    server = await startServer();
-    browser = await launch(llvmpipe);
+    server = await serve(site);
+    browser = await launch();
   });
   after(async () => {
     await browser?.close();
@@ -141,7 +87,7 @@ describe('the page', { skip }, () => {
       assert.deepEqual(complaints, []);
     });
     if (init) await page.addInitScript(init);
-    await page.goto(`http://127.0.0.1:${server.address().port}/${query}`);
+    await page.goto(`${server.address}/${query}`);
     if (waits) {
       const state = await page.waitForFunction(() => {
         const text = document.querySelector('[role=alert]').textContent;
@@ -199,7 +145,7 @@ describe('the page', { skip }, () => {
   // Measured on SwiftShader: knot 0.42 % (studio) and 0.80 % (checker), sphere 0.07 and 0.14, goblet 0.48 and 0.82:
   // another rasterizer and other rounding. One picture is enough to show that it runs there.
   test('draws the same on SwiftShader', async (t) => {
-    const other = await launch(swiftShader);
+    const other = await launch('swiftshader');
     t.after(() => other.close());
     const page = await open(t, { from: other, viewport: { width: 320, height: 320 } });
     await setView(page);
@@ -221,7 +167,8 @@ describe('the page', { skip }, () => {
   });
 
   test('sliders change number, picture and address', async (t) => {
-    const page = await open(t);
+    const page = await open(t, { query: '?technique=layered' });
+    assert.deepEqual(await Promise.all(['layers', 'steps'].map((id) => page.textContent(`#${id}-value`))), ['4', '50']);
     for (const [id, value, shown] of [['layers', 2, '2'], ['steps', 5, '5'], ['ior', 1.2, '1.20']]) {
       const old = await canvasPart(page);
       await page.locator(`#${id}`).fill(String(value));
@@ -235,7 +182,7 @@ describe('the page', { skip }, () => {
 
     await page.selectOption('#model', 'goblet');
     const query = new URL(page.url()).searchParams;
-    assert.deepEqual(Object.fromEntries(query), { environment: 'studio', ior: '1.2', layers: '2', model: 'goblet', steps: '5' });
+    assert.deepEqual(Object.fromEntries(query), { environment: 'studio', ior: '1.2', layers: '2', model: 'goblet', steps: '5', technique: 'layered' });
     const again = await open(t, { query: `?${query}` });
     assert.equal(await again.inputValue('#model'), 'goblet');
     assert.equal(await again.textContent('#ior-value'), '1.20');
@@ -300,7 +247,7 @@ describe('the page', { skip }, () => {
   test('bad files give the native sentence and leave the picture', async (t) => {
     const page = await open(t);
     const spot = join(data, 'mesh/spot_5856.glb');
-    const good = existsSync(spot) ? readFileSync(spot) : glbCube();
+    const good = existsSync(spot) ? readFileSync(spot) : glb(gltf(cube));
     const bad = { 'notes.txt': Buffer.from('not a model'), 'half.glb': good.subarray(0, good.length / 2), 'empty.glb': Buffer.alloc(0) };
     const first = await canvasPart(page);
     for (const [name, buffer] of Object.entries(bad)) {

@@ -7,6 +7,8 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import * as shapes from '../scripts/glb.mjs';
+import { glb, gltf } from '../scripts/glb.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
@@ -42,55 +44,8 @@ function refuses(args, parts, options = {}) {
   assert.deepEqual(readdirSync(folder).sort(), before, 'no file is left behind');
 }
 
-// A cube, changed by each case before it is written.
-function cube() {
-  const positions = [];
-  for (let i = 0; i < 8; ++i) positions.push(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-  const indices = [];
-  for (const [a, b, c, d] of [[4, 5, 7, 6], [1, 0, 2, 3], [5, 1, 3, 7], [0, 4, 6, 2], [6, 7, 3, 2], [0, 1, 5, 4]]) {
-    indices.push(a, b, c, a, c, d);
-  }
-  return { positions, indices };
-}
-
-function gltf({ positions, indices }, uri) {
-  const bin = Buffer.concat([Buffer.from(Float32Array.from(positions).buffer), Buffer.from(Uint32Array.from(indices).buffer)]);
-  const split = positions.length * 4;
-  const json = {
-    asset: { version: '2.0' },
-    scene: 0,
-    scenes: [{ nodes: [0] }],
-    nodes: [{ mesh: 0 }],
-    materials: [{ extensions: { KHR_materials_ior: { ior: 1.31 } } }],
-    extensionsUsed: ['KHR_materials_ior'],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
-    buffers: [{ byteLength: bin.length, ...(uri ? { uri } : {}) }],
-    bufferViews: [
-      { buffer: 0, byteOffset: 0, byteLength: split },
-      { buffer: 0, byteOffset: split, byteLength: bin.length - split },
-    ],
-    accessors: [
-      { bufferView: 0, componentType: 5126, count: positions.length / 3, type: 'VEC3', min: [-1, -1, -1], max: [1, 1, 1] },
-      { bufferView: 1, componentType: 5125, count: indices.length, type: 'SCALAR' },
-    ],
-  };
-  return { json, bin };
-}
-
-function glb({ json, bin }) {
-  const text = Buffer.from(JSON.stringify(json));
-  const padded = Buffer.concat([text, Buffer.alloc((4 - (text.length % 4)) % 4, 32)]);
-  const chunk = (type, data) => {
-    const head = Buffer.alloc(8);
-    head.writeUInt32LE(data.length, 0);
-    head.writeUInt32LE(type, 4);
-    return Buffer.concat([head, data]);
-  };
-  const body = Buffer.concat([chunk(0x4e4f534a, padded), chunk(0x004e4942, bin)]);
-  const head = Buffer.from('glTF\x02\0\0\0\0\0\0\0', 'latin1');
-  head.writeUInt32LE(body.length + 12, 8);
-  return Buffer.concat([head, body]);
-}
+/** A cube, changed by each case before it is written. */
+const cube = () => ({ positions: [...shapes.cube.positions], indices: [...shapes.cube.indices], ior: 1.31 });
 
 function write(name, data) {
   writeFileSync(join(folder, name), data);

@@ -3,46 +3,28 @@
 // folder; without one of them the tests skip themselves and say so.
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, readFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
-import { dirname, extname, join, resolve } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { glb, gltf, tetrahedron } from '../scripts/glb.mjs';
+import { chromiumPath, launch, serve, skipWithout } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
-const chromiumPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const screenshots = join(here, '../build/screenshots');
 
 const modules = await Promise.all(['playwright-core', 'pixelmatch', 'pngjs', 'axe-core'].map((name) => import(name))).catch(() => null);
-const missing = [
+const skip = skipWithout(
   [modules, "node modules (run 'npm ci' in tests/)"],
   [existsSync(join(site, 'demo/index.html')), join(site, 'demo')],
   [existsSync(chromiumPath), chromiumPath],
-].filter(([there]) => !there).map(([, name]) => name);
-const skip = missing.length > 0 && `missing: ${missing.join(', ')}`;
-const [{ chromium }, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
+);
+const [, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
 
-const llvmpipe = ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'];
-const quiet = ['--no-sandbox', '--disable-sync', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update'];
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.png': 'image/png' };
 const small = { width: 780, height: 420 };
 const quick = 'layers=2&steps=12&events=4'; // llvmpipe computes every pixel on the CPU
 const visible = { x: 0, y: 130, width: 424, height: 150 }; // neither panel nor gallery nor captions
-
-function startServer() {
-  const server = createServer((request, response) => {
-    const { pathname } = new URL(request.url, 'http://localhost');
-    const file = join(site, pathname.endsWith('/') ? `${pathname}index.html` : pathname);
-    if (!file.startsWith(site) || !existsSync(file)) {
-      response.writeHead(404).end();
-      return;
-    }
-    response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' });
-    response.end(readFileSync(file));
-  });
-  return new Promise((ready) => server.listen(0, '127.0.0.1', () => ready(server)));
-}
 
 /** In the page, before its scripts: counts draw calls, layout shifts and violations of the policy. */
 function watch() {
@@ -91,35 +73,13 @@ function columns(image, from, to) {
   return part;
 }
 
-function glbTetrahedron() {
-  const body = Buffer.concat([
-    Buffer.from(new Float32Array([1, 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1]).buffer),
-    Buffer.from(new Uint16Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]).buffer),
-  ]);
-  const json = Buffer.from(JSON.stringify({
-    asset: { version: '2.0' }, buffers: [{ byteLength: body.length }],
-    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 24 }],
-    accessors: [
-      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-1, -1, -1], max: [1, 1, 1] },
-      { bufferView: 1, componentType: 5123, count: 12, type: 'SCALAR' },
-    ],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0,
-  }));
-  const padded = Buffer.concat([json, Buffer.alloc((4 - (json.length % 4)) % 4, ' ')]);
-  const words = (...numbers) => Buffer.from(new Uint32Array(numbers).buffer);
-  return Buffer.concat([
-    words(0x46546c67, 2, 28 + padded.length + body.length),
-    words(padded.length, 0x4e4f534a), padded, words(body.length, 0x004e4942), body,
-  ]);
-}
-
 describe('the demo page', { skip }, () => {
   let server, browser;
 
   before(async () => {
     mkdirSync(screenshots, { recursive: true });
-    server = await startServer();
-    browser = await chromium.launch({ executablePath: chromiumPath, args: [...quiet, ...llvmpipe] });
+    server = await serve(site);
+    browser = await launch();
   });
   after(async () => {
     await browser?.close();
@@ -142,7 +102,7 @@ describe('the demo page', { skip }, () => {
       assert.ok(shift < 0.05, `layout shifts by ${shift}`);
     });
     await page.addInitScript(watch);
-    await page.goto(`http://127.0.0.1:${server.address().port}/demo/?${query}`);
+    await page.goto(`${server.address}/demo/?${query}`);
     await settle(page);
     return page;
   }
@@ -166,13 +126,13 @@ describe('the demo page', { skip }, () => {
     const { draws } = await page.evaluate(() => window.watched);
     await page.waitForTimeout(700);
     assert.equal(await page.evaluate(() => window.watched.draws), draws);
-    assert.match(await page.textContent('#size'), /\d+ × \d+ \(\d+ %\) · 4 layers · 50 steps/);
+    assert.match(await page.textContent('#size'), /^\d+ × \d+ · 8 layers · 256 steps$/);
     await page.emulateMedia({ colorScheme: 'light' });
     await page.screenshot({ path: join(screenshots, 'demo-wide-light.png') });
   });
 
   test('every control changes picture, number and address', async (t) => {
-    const page = await open(t, `${quick}&quality=high`);
+    const page = await open(t, `${quick}&quality=high&technique=layered`);
     let old = await seen(page);
     const changes = async (name, least = 0.1) => {
       const now = await seen(page);
@@ -200,16 +160,40 @@ describe('the demo page', { skip }, () => {
     await page.locator('#theme input[value=light]').check();
     await changes('theme', 10);
     assert.deepEqual(await query(page), {
-      model: 'goblet', environment: 'checker', backdrop: '0', technique: 'single', ior: '1.2', steps: '3', events: '2',
+      model: 'goblet', environment: 'checker', backdrop: '0', technique: 'single', ior: '1.2', layers: '4', steps: '3', events: '2',
       quality: 'low', exposure: '1', fov: '30', theme: 'light',
     });
 
     for (const [name, ior] of [['Water', '1.333'], ['Crown glass', '1.523'], ['Flint', '1.62'], ['Sapphire', '1.77'], ['Diamond', '2.417']]) {
-      await page.locator('#presets').getByRole('button', { name }).click();
+      await page.locator('#glasses').getByRole('button', { name }).click();
       assert.equal(await page.inputValue('#ior'), ior);
       assert.equal(await page.getAttribute('vitrine-viewer', 'ior'), ior);
-      assert.equal(await page.locator('#presets [aria-pressed=true]').textContent(), name);
+      assert.equal(await page.locator('#glasses [aria-pressed=true]').textContent(), name);
     }
+  });
+
+  test('presets and own numbers', async (t) => {
+    const page = await open(t, 'quality=high');
+    const show = (...expected) => page.waitForFunction((texts) => {
+      const now = ['layers', 'steps', 'events'].map((id) => document.getElementById(`${id}-value`).textContent);
+      return texts.join() === now.join();
+    }, expected, { timeout: 10000 });
+    const keep = (address) => page.waitForFunction((search) => location.search === search, address, { timeout: 10000 });
+    await show('8 (preset)', '256 (preset)', '8 (preset)');
+    assert.equal(await page.inputValue('#steps'), '256');
+    await page.locator('#preset input[value=low]').check();
+    await show('4 (preset)', '64 (preset)', '4 (preset)');
+    assert.match(await page.textContent('#size'), /4 layers · 64 steps/);
+    assert.match(await page.getAttribute('#size', 'title'), /preset low/);
+    await page.selectOption('#technique', 'layered');
+    await show('2 (preset)', '25 (preset)', '4 (preset)');
+    await slide(page, 'layers', 3);
+    await show('3', '25 (preset)', '4 (preset)');
+    assert.equal(await page.locator('#preset :checked').count(), 0);
+    await keep('?technique=layered&preset=low&layers=3&quality=high');
+    await page.locator('#preset input[value=medium]').check();
+    await show('4 (preset)', '50 (preset)', '8 (preset)');
+    await keep('?technique=layered&quality=high');
   });
 
   test('layers and path colours', async (t) => {
@@ -225,8 +209,12 @@ describe('the demo page', { skip }, () => {
       pictures.push(await seen(page));
     }
     await page.screenshot({ path: join(screenshots, 'demo-normals.png') });
+    assert.equal(await page.inputValue('#technique'), 'layered', 'which has layers to show');
     await slide(page, 'layer', 1);
     pictures.push(await seen(page));
+    await page.selectOption('#technique', 'exact');
+    pictures.push(await seen(page));
+    assert.ok(await page.locator('#output input[value=picture]').isChecked());
     for (let i = 1; i < pictures.length; ++i) assert.ok(difference(pictures[i - 1], pictures[i]) > 3, `${i}`);
   });
 
@@ -261,11 +249,11 @@ describe('the demo page', { skip }, () => {
 
   test('wipes between two techniques', async (t) => {
     const single = await seen(await open(t, `${quick}&technique=single`));
-    const layered = await seen(await open(t, `${quick}&technique=layered`));
-    const page = await open(t, `${quick}&technique=layered&compare=single&wipe=50`);
+    const exact = await seen(await open(t, quick));
+    const page = await open(t, `${quick}&compare=single&wipe=50`);
     const both = await seen(page);
     const middle = 212; // of the visible width
-    const sides = [[0, middle - 24, layered, single], [middle + 24, 424, single, layered]];
+    const sides = [[0, middle - 24, exact, single], [middle + 24, 424, single, exact]];
     for (const [from, to, same, other] of sides) {
       const part = columns(both, from, to);
       assert.ok(difference(part, columns(same, from, to)) < 0.5, `from ${from}: as the single view`);
@@ -308,7 +296,7 @@ describe('the demo page', { skip }, () => {
   });
 
   test('wipes against stored pictures', async (t) => {
-    const page = await open(t, `layers=4&steps=40&quality=high&compare=none`);
+    const page = await open(t, 'quality=high');
     await page.selectOption('#compare', 'reference');
     await page.waitForSelector('#right .picture');
     const traced = await slideTo(page, 0), ours = await slideTo(page, 100);
@@ -337,7 +325,7 @@ describe('the demo page', { skip }, () => {
     assert.ok(difference(first, await seen(page)) < 0.5, 'the picture stays');
     assert.equal(await page.getByRole('button', { name: 'Knot' }).getAttribute('aria-pressed'), 'true');
 
-    await drop(page, 'tetrahedron.glb', glbTetrahedron());
+    await drop(page, 'tetrahedron.glb', glb(gltf(tetrahedron)));
     await page.waitForSelector('[data-url^="blob:"][aria-pressed=true]');
     assert.ok(await page.isHidden('#error'));
     assert.ok(difference(first, await seen(page)) > 3);

@@ -2,59 +2,36 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
-import { dirname, extname, join, resolve } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { glb, gltf, tetrahedron } from '../scripts/glb.mjs';
+import { answerWithFile, chromiumPath, launch, listen, skipWithout } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
-const chromiumPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const axe = resolve(process.env.AXE ?? join(here, 'node_modules/axe-core/axe.min.js'));
 const screenshots = join(here, '../build/screenshots');
 
 const modules = await Promise.all(['playwright-core', 'pixelmatch', 'pngjs'].map((name) => import(name))).catch(() => null);
-const missing = [
+const skip = skipWithout(
   [modules, "node modules (run 'npm ci' in tests/)"],
   [existsSync(join(site, 'element/vitrine-viewer.js')), `${site}/element`],
   [existsSync(binary), binary],
   [existsSync(chromiumPath), chromiumPath],
-].filter(([there]) => !there).map(([, name]) => name);
-const skip = missing.length > 0 && `missing: ${missing.join(', ')}`;
-const [{ chromium }, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
+);
+const [, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
 
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.png': 'image/png' };
 const csp = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; img-src 'self'";
 const sheet = 'body { margin: 0; background: rgb(20, 90, 40); } vitrine-viewer { width: 160px; height: 160px; } .far { height: 3000px; }';
 
 /** A tetrahedron with an index of refraction, followed by `padding` bytes that no accessor reads. */
-function glb({ ior = 1.3, padding = 0 } = {}) {
-  const positions = new Float32Array([1, 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1]);
-  const indices = new Uint16Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
-  const body = Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer), Buffer.alloc(padding)]);
-  const json = Buffer.from(JSON.stringify({
-    asset: { version: '2.0' },
-    extensionsUsed: ['KHR_materials_ior'],
-    buffers: [{ byteLength: body.length }],
-    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 24 }],
-    accessors: [
-      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-1, -1, -1], max: [1, 1, 1] },
-      { bufferView: 1, componentType: 5123, count: 12, type: 'SCALAR' },
-    ],
-    materials: [{ extensions: { KHR_materials_ior: { ior } } }],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
-    nodes: [{ mesh: 0 }],
-    scenes: [{ nodes: [0] }],
-    scene: 0,
-  }));
-  const padded = Buffer.concat([json, Buffer.alloc((4 - (json.length % 4)) % 4, ' ')]);
-  const words = (...numbers) => Buffer.from(new Uint32Array(numbers).buffer);
-  return Buffer.concat([
-    words(0x46546c67, 2, 12 + 8 + padded.length + 8 + body.length),
-    words(padded.length, 0x4e4f534a), padded, words(body.length, 0x004e4942), body,
-  ]);
+function pyramid({ padding = 0 } = {}) {
+  const { json, bin } = gltf({ ...tetrahedron, ior: 1.3 });
+  json.buffers[0].byteLength += padding;
+  return glb({ json, bin: Buffer.concat([bin, Buffer.alloc(padding)]) });
 }
 
 /** An environment of all colours and opacities. */
@@ -70,7 +47,7 @@ const radiance = Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\
 
 /** The built site, test pages from memory, and files that come slowly or not at all. */
 function startServer(requests, pages) {
-  const server = createServer(async (request, response) => {
+  return listen(async (request, response) => {
     const { pathname } = new URL(request.url, 'http://localhost');
     requests.push(pathname);
     const send = (body, type, more = {}) => response.writeHead(200, { 'content-type': type, 'content-length': body.length, ...more }).end(body);
@@ -79,11 +56,11 @@ function startServer(requests, pages) {
     } else if (pathname === '/test.css') {
       send(Buffer.from(sheet), 'text/css');
     } else if (pathname === '/good.glb') {
-      send(glb(), 'model/gltf-binary');
+      send(pyramid(), 'model/gltf-binary');
     } else if (pathname === '/broken.glb') {
-      send(glb().subarray(0, 100), 'model/gltf-binary');
+      send(pyramid().subarray(0, 100), 'model/gltf-binary');
     } else if (pathname === '/slow.glb') {
-      const bytes = glb({ padding: 400000 });
+      const bytes = pyramid({ padding: 400000 });
       response.writeHead(200, { 'content-type': 'model/gltf-binary', 'content-length': bytes.length });
       for (let at = 0; at < bytes.length; at += 50000) {
         response.write(bytes.subarray(at, at + 50000));
@@ -99,12 +76,9 @@ function startServer(requests, pages) {
       for (let i = 0; i < png.data.length; i += 4) png.data.set([250, 10, 200, 255], i);
       send(PNG.sync.write(png), 'image/png');
     } else {
-      const file = join(site, pathname);
-      if (file.startsWith(site) && extname(file) && existsSync(file)) send(readFileSync(file), types[extname(file)] ?? 'application/octet-stream');
-      else response.writeHead(404).end();
+      answerWithFile(site, pathname, response);
     }
   });
-  return new Promise((ready) => server.listen(0, '127.0.0.1', () => ready(server)));
 }
 
 /** In the page, before anything else: counts draws and contexts, and collects events. */
@@ -159,9 +133,7 @@ describe('the element', { skip }, () => {
     mkdirSync(screenshots, { recursive: true });
     folder = mkdtempSync(join(tmpdir(), 'vitrine-element-'));
     server = await startServer(requests, pages);
-    const quiet = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
-    const llvmpipe = ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'];
-    browser = await chromium.launch({ executablePath: chromiumPath, args: ['--no-sandbox', ...quiet, ...llvmpipe] });
+    browser = await launch();
   });
   after(async () => {
     await browser?.close();
@@ -189,7 +161,7 @@ describe('the element', { skip }, () => {
     });
     await page.addInitScript(instrument);
     if (init) await page.addInitScript(init);
-    await page.goto(`http://127.0.0.1:${server.address().port}${path}`);
+    await page.goto(`${server.address}${path}`);
     if (waits) {
       await page.waitForFunction(() => [...document.querySelectorAll('vitrine-viewer')].every((viewer) => viewer.loaded));
       await settle(page);
@@ -228,7 +200,7 @@ describe('the element', { skip }, () => {
 
   test('draws what the native program draws', async (t) => {
     const page = await open(t, '<vitrine-viewer id="a" src="knot" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
-    for (const technique of ['layered', 'wyman', 'single']) {
+    for (const technique of ['exact', 'layered', 'wyman', 'single']) {
       await page.evaluate((id) => (a.technique = id), technique);
       const expected = nativePicture('knot', '--technique', technique);
       await settle(page);
@@ -238,7 +210,7 @@ describe('the element', { skip }, () => {
         assert.ok(differing < 0.5, `${technique}, ${name}: ${differing} % differ`);
       }
     }
-    await page.evaluate(() => Object.assign(a, { technique: 'layered', src: 'goblet', environmentImage: 'checker', cameraOrbit: '0rad 90deg 6m', cameraTarget: '0m 0m 0m', exposure: 2, ior: 1.3 }));
+    await page.evaluate(() => Object.assign(a, { technique: 'exact', src: 'goblet', environmentImage: 'checker', cameraOrbit: '0rad 90deg 6m', cameraTarget: '0m 0m 0m', exposure: 2, ior: 1.3 }));
     await page.waitForFunction(() => a.loaded);
     await settle(page);
     const expected = nativePicture('goblet', '-e', 'checker', '--camera', '0,0,6', '--target', '0,0,0', '--exposure', '1', '--ior', '1.3');
@@ -586,30 +558,51 @@ describe('the element', { skip }, () => {
     assert.equal(await draws(page), hidden, 'hidden');
   });
 
-  test('quality="auto" holds the frame time and ends with a full frame', async (t) => {
-    const page = await open(t, '<vitrine-viewer id="a" src="knot" camera-controls steps="100"></vitrine-viewer><style>vitrine-viewer { width: 220px; height: 220px }</style>', { deviceScaleFactor: 3, waits: false });
-    await page.waitForFunction(() => a.loaded);
-    await settle(page);
-    const first = (await events(page, 'render-scale'))[0];
-    assert.deepEqual([first.reportedDpr, first.renderedDpr, first.pixelWidth, first.steps, first.reason], [3, 2, 440, 100, 'still']);
-    const full = await picture(page);
-    await page.evaluate(() => (a.autoRotate = true));
-    await page.waitForFunction(() => window.events.filter(({ event }) => event === 'render-scale').length > 2);
-    await pause(700);
-    await page.screenshot({ path: join(screenshots, 'element-moving.png') });
-    await page.evaluate(() => (a.autoRotate = false));
-    await page.waitForFunction(() => window.events.findLast(({ event }) => event === 'render-scale').reason === 'still');
-    await settle(page);
-    const scales = await events(page, 'render-scale');
-    t.diagnostic(scales.map((one) => `${one.pixelWidth} px, ${one.layers} layers, ${one.steps} steps (${one.reason})`).join('; '));
-    assert.ok(scales.some(({ reason, pixelWidth, steps }) => reason === 'frame-time' && pixelWidth < 300 && steps < 100));
-    assert.deepEqual([scales.at(-1).pixelWidth, scales.at(-1).layers, scales.at(-1).steps], [440, 4, 100]);
-    await page.evaluate(() => a.resetView());
-    await settle(page);
-    assert.equal(difference(full, await picture(page)), 0);
-    await page.evaluate(() => (a.quality = 'low'));
-    await settle(page);
-    assert.equal((await events(page, 'render-scale')).at(-1).pixelWidth, 220);
+  // Less of each setting too, where the resolution alone is not enough; what is peeled once stays as it is.
+  for (const [technique, full, least] of [['exact', [8, 100, 8], [8, 64, 4]], ['layered', [4, 100, 8], [2, 25, 4]]]) {
+    test(`quality="auto" holds the frame time and ends with a full frame: ${technique}`, async (t) => {
+      const page = await open(t, `<vitrine-viewer id="a" src="knot" camera-controls technique="${technique}" steps="100"></vitrine-viewer><style>vitrine-viewer { width: 220px; height: 220px }</style>`, { deviceScaleFactor: 3, waits: false });
+      await page.waitForFunction(() => a.loaded);
+      await settle(page);
+      const settings = ({ layers, steps, maxEvents }) => [layers, steps, maxEvents];
+      const first = (await events(page, 'render-scale'))[0];
+      assert.deepEqual([first.reportedDpr, first.renderedDpr, first.pixelWidth, first.preset, first.reason], [3, 2, 440, 'medium', 'still']);
+      assert.deepEqual(settings(first), full);
+      const shown = await picture(page);
+      await page.evaluate(() => (a.autoRotate = true));
+      await page.waitForFunction(() => window.events.filter(({ event }) => event === 'render-scale').length > 2);
+      await pause(700);
+      await page.screenshot({ path: join(screenshots, `element-moving-${technique}.png`) });
+      await page.evaluate(() => (a.autoRotate = false));
+      await page.waitForFunction(() => window.events.findLast(({ event }) => event === 'render-scale').reason === 'still');
+      await settle(page);
+      const scales = await events(page, 'render-scale');
+      t.diagnostic(scales.map((one) => `${one.pixelWidth} px, ${one.preset}: ${settings(one)} (${one.reason})`).join('; '));
+      assert.ok(scales.some(({ reason, pixelWidth }) => reason === 'frame-time' && pixelWidth < 300));
+      for (const one of scales) assert.deepEqual(settings(one), one.preset === 'low' ? least : full);
+      assert.deepEqual([scales.at(-1).pixelWidth, scales.at(-1).preset], [440, 'medium']);
+      await page.evaluate(() => a.resetView());
+      await settle(page);
+      assert.equal(difference(shown, await picture(page)), 0);
+      await page.evaluate(() => (a.quality = 'low'));
+      await settle(page);
+      assert.equal((await events(page, 'render-scale')).at(-1).pixelWidth, 220);
+    });
+  }
+
+  test('presets say what is not said', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere" quality="high"></vitrine-viewer>');
+    const shown = async (change) => {
+      await page.evaluate((values) => Object.assign(a, values), change);
+      await settle(page);
+      const { preset, layers, steps, maxEvents } = (await events(page, 'render-scale')).at(-1);
+      return [preset, layers, steps, maxEvents];
+    };
+    assert.deepEqual(await shown({}), ['medium', 8, 256, 8]);
+    assert.deepEqual(await shown({ preset: 'low' }), ['low', 4, 64, 4]);
+    assert.deepEqual(await shown({ preset: 'high', maxEvents: 5 }), ['high', 8, 512, 5]);
+    assert.deepEqual(await shown({ technique: 'layered', layers: 3 }), ['high', 3, 100, 5]);
+    assert.deepEqual(await shown({ technique: null, preset: null, layers: null, maxEvents: null }), ['medium', 8, 256, 8]);
   });
 
   test('a lost context comes back with its scene', async (t) => {
@@ -692,7 +685,7 @@ describe('the element', { skip }, () => {
       Object.assign(a, { ior: null, cameraControls: true, maxEvents: 3 });
       return [before, a.ior, a.hasAttribute('ior'), a.getAttribute('camera-controls'), a.getAttribute('max-events'), a.constructor.observedAttributes.length];
     });
-    assert.deepEqual(seen, [[1.4, 'layered', false, 4], null, false, '', '3', 24]);
+    assert.deepEqual(seen, [[1.4, 'exact', false, null], null, false, '', '3', 25]);
     const blob = await page.evaluate(async () => {
       const { type, size } = await a.toBlob({ mimeType: 'image/jpeg' });
       return [type, size > 1000];

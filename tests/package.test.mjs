@@ -3,37 +3,21 @@
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
-import { dirname, extname, join, resolve } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { chromiumPath, launch, serve } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = resolve(here, '..');
 const missing = !existsSync(join(root, 'build/web/vitrine-core.wasm'))
   ? 'the page is not built (scripts/build-web.sh)'
-  : !existsSync('/usr/bin/chromium')
+  : !existsSync(chromiumPath)
     ? 'chromium is not installed'
     : !existsSync(join(here, 'node_modules/vite'))
       ? 'npm packages are not installed (tests/package.json)'
       : false;
-
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css' };
-
-/** Serves a folder on a free port of this machine. */
-async function serve(folder) {
-  const server = createServer((request, response) => {
-    const path = join(folder, new URL(request.url, 'http://localhost').pathname.replace(/\/$/, '/index.html'));
-    if (!path.startsWith(folder) || !existsSync(path)) {
-      response.writeHead(404).end();
-      return;
-    }
-    response.writeHead(200, { 'content-type': types[extname(path)] ?? 'application/octet-stream' }).end(readFileSync(path));
-  });
-  await new Promise((done) => server.listen(0, '127.0.0.1', done));
-  return { address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
-}
 
 describe('the package', { skip: missing }, () => {
   const folder = mkdtempSync(join(tmpdir(), 'vitrine-package-'));
@@ -42,12 +26,7 @@ describe('the package', { skip: missing }, () => {
   before(async () => {
     report = execFileSync('node', [join(root, 'scripts/package.mjs')]).toString();
     tarball = join(root, report.split('\n')[0]);
-    const { chromium } = await import('playwright-core');
-    browser = await chromium.launch({
-      executablePath: '/usr/bin/chromium',
-      args: ['--headless=new', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
-        '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'],
-    });
+    browser = await launch();
   });
   after(async () => {
     await browser?.close();
@@ -58,7 +37,7 @@ describe('the package', { skip: missing }, () => {
   async function colours(site) {
     const server = await serve(site);
     try {
-      return await coloursAt(server.address);
+      return await coloursAt(`${server.address}/`);
     } finally {
       server.close();
     }

@@ -9,9 +9,11 @@ const canvas = element('canvas');
 const panel = document.querySelector('.panel');
 const sliders = ['layers', 'steps', 'ior'];
 const outputPicture = 0, outputAnalysis = 1; // of vtOutput
+const presetMedium = 1; // of vtPreset
 const largestScale = 2; // canvas pixels per CSS pixel
 
 const state = { model: 'knot', environment: 'studio' };
+let settings = { technique: 'exact', layers: 0, steps: 0 }; // 0: as the preset says
 let core; // the module
 let page, viewer; // handles in it
 let stopped = false; // no context any more
@@ -68,8 +70,10 @@ function showState() {
 }
 
 function keepInAddress() {
-  const { ior, layers, steps } = info();
-  const query = new URLSearchParams({ ior, layers, steps });
+  const query = new URLSearchParams({ ior: info().ior });
+  for (const [key, value] of Object.entries(settings)) {
+    if (value !== 0 && value !== 'exact') query.set(key, value);
+  }
   // A file of the visitor's own has no address.
   if (state.environment !== null) query.set('environment', state.environment);
   if (state.model !== null) query.set('model', state.model);
@@ -79,8 +83,11 @@ function keepInAddress() {
 // ------------------------------------------------------------------------------------------------ settings
 
 function setGlass(values) {
-  const { technique, ior, layers, steps, maxEvents, output } = { ...info(), ...values };
-  const done = attempt('SetGlass', technique, ior, layers, steps, maxEvents, output, 0, 0, 0, 1);
+  const { ior, output } = { ...info(), ...values };
+  const wanted = Object.fromEntries(Object.entries(settings).map(([key, value]) => [key, values[key] ?? value]));
+  const { technique, layers, steps } = wanted;
+  const done = attempt('SetGlass', technique, ior, presetMedium, layers, steps, 0, output, 0, 0, 0, 1, 0);
+  if (done) settings = wanted;
   showState();
   return done;
 }
@@ -250,6 +257,7 @@ async function main() {
   for (const kind of ['model', 'environment']) {
     if (asked.has(kind)) keep(choose(kind, asked.get(kind)));
   }
+  if (asked.has('technique')) keep(setGlass({ technique: asked.get('technique') }));
   for (const id of sliders) {
     if (asked.has(id)) keep(setGlass({ [id]: Number(asked.get(id)) }));
   }

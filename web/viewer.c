@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "technique.h"
 
 static const char* sentence(const vtViewer* viewer, vtResult result)
 {
@@ -146,10 +147,32 @@ static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
     return result;
 }
 
-/// Technique by its id and the settings of the glass, ranges as in vtFrame; `output` is a vtOutput.
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/// No more work a pixel than preset low asks for. What is peeled once for a mesh stays: peeling it anew
+/// whenever motion starts and ends would cost more than it saves.
+static void lessen(vtFrame* frame)
+{
+    const vtFrame full = vtResolveFrame(frame);
+    vtFrame low = full;
+    low.preset = vt_presetLow;
+    low.layers = low.steps = low.maxEvents = 0;
+    low = vtResolveFrame(&low);
+    frame->layers = vtFrame_LayerCount(&full) > 0 ? least(full.layers, low.layers) : full.layers;
+    frame->steps = least(full.steps, low.steps);
+    frame->maxEvents = least(full.maxEvents, low.maxEvents);
+}
+
+/// Technique by its id and the settings of the glass, ranges as in vtFrame, 0 where the preset decides;
+/// `output` is a vtOutput. A layer beyond those there are is the last one. With `lessened` it is drawn with
+/// less.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, float ior,
-                                                   int layers, int steps, int maxEvents, int output,
-                                                   int layer, float exposure, bool transparent, int samples)
+                                                   int preset, int layers, int steps, int maxEvents,
+                                                   int output, int layer, float exposure, bool transparent,
+                                                   int samples, bool lessened)
 {
     vtFrame frame = viewer->frame;
     frame.technique = vtFindTechnique(technique);
@@ -158,15 +181,25 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char*
         return viewer->error.message;
     }
     frame.ior = ior;
+    frame.preset = (vtPreset)preset;
     frame.layers = layers;
     frame.steps = steps;
     frame.maxEvents = maxEvents;
     frame.output = (vtOutput)output;
-    frame.layer = layer;
+    frame.layer = 0;
     frame.exposure = exposure;
     frame.transparentBackground = transparent;
     frame.samples = samples;
-    return sentence(viewer, showFrame(viewer, &frame));
+    vtResult result = vtValidateFrame(&frame, &viewer->error);
+    if (result == vt_ok) {
+        if (lessened) {
+            lessen(&frame);
+        }
+        const int count = vtFrame_LayerCount(&frame);
+        frame.layer = count > 0 ? least(layer, count - 1) : 0;
+        result = showFrame(viewer, &frame);
+    }
+    return sentence(viewer, result);
 }
 
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetView(vtViewer* viewer, float eyeX, float eyeY, float eyeZ,
@@ -278,20 +311,22 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Path(vtViewer* viewer, float x, float 
     return text;
 }
 
-/// What is shown, as JSON.
+/// What is shown, as JSON; settings that the preset decides as it decided.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Info(vtViewer* viewer)
 {
-    const vtFrame* frame = &viewer->frame;
-    const vtView* view = &frame->view;
-    vtRendererInfo info = vtRenderer_Info(viewer->renderer);
-    snprintf(viewer->info, sizeof viewer->info,
-             "{\"triangles\":%u,\"openEdges\":%u,\"layerWidth\":%d,\"layerHeight\":%d,\"drawCount\":%d,"
-             "\"technique\":\"%s\",\"ior\":%.6g,\"layers\":%d,\"steps\":%d,\"maxEvents\":%d,\"output\":%d,"
-             "\"eye\":[%.6g,%.6g,%.6g],\"target\":[%.6g,%.6g,%.6g],\"fov\":%.6g}",
-             viewer->mesh.indexCount / 3, viewer->mesh.openEdgeCount, info.layerWidth, info.layerHeight,
-             viewer->drawCount, vtTechnique_Info(frame->technique)->id, (double)frame->ior, frame->layers,
-             frame->steps, frame->maxEvents, (int)frame->output, (double)view->eye.x, (double)view->eye.y,
-             (double)view->eye.z, (double)view->target.x, (double)view->target.y, (double)view->target.z,
-             (double)view->fovY);
+    const vtFrame frame = vtResolveFrame(&viewer->frame);
+    const vtView* view = &frame.view;
+    const vtRendererInfo info = vtRenderer_Info(viewer->renderer);
+    const bool peels = vtFrame_LayerCount(&frame) > 0;
+    snprintf(
+        viewer->info, sizeof viewer->info,
+        "{\"triangles\":%u,\"openEdges\":%u,\"layerWidth\":%d,\"layerHeight\":%d,\"drawCount\":%d,"
+        "\"technique\":\"%s\",\"preset\":\"%s\",\"ior\":%.6g,\"layers\":%d,\"steps\":%d,\"maxEvents\":%d,"
+        "\"output\":%d,\"eye\":[%.6g,%.6g,%.6g],\"target\":[%.6g,%.6g,%.6g],\"fov\":%.6g}",
+        viewer->mesh.indexCount / 3, viewer->mesh.openEdgeCount, peels ? info.layerWidth : frame.cubeSize,
+        peels ? info.layerHeight : frame.cubeSize, viewer->drawCount, vtTechnique_Info(frame.technique)->id,
+        vtPresetName((int)frame.preset), (double)frame.ior, frame.layers, frame.steps, frame.maxEvents,
+        (int)frame.output, (double)view->eye.x, (double)view->eye.y, (double)view->eye.z,
+        (double)view->target.x, (double)view->target.y, (double)view->target.z, (double)view->fovY);
     return viewer->info;
 }

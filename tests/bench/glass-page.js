@@ -203,8 +203,8 @@ class VitrineContestant {
     const { size, ior, files, core } = this.shared;
     this.canvas.width = this.canvas.height = size;
     this.viewer = new Viewer(core, this.canvas, () => false);
-    this.#must(this.viewer.attemptBytes('OpenModel', files.model, 'model.glb'));
-    this.#must(this.viewer.attempt('SetGlass', this.name, ior, 4, 50, 8, 0, 0, 0, 0)); // the element's defaults
+    this.#must(this.viewer.attemptFile('OpenModel', { name: 'model.glb', contents: files.model }));
+    this.#must(this.viewer.setGlass({ technique: this.name, ior, preset: 'medium', output: 'picture', layer: 0, exposure: 0, transparent: false, samples: 1, lessened: false }));
     this.#must(this.viewer.attempt('Resize', size, size));
     await this.show({ what: 'picture' });
   }
@@ -215,7 +215,8 @@ class VitrineContestant {
 
   async show({ what }) {
     const { files } = this.shared;
-    this.#must(this.viewer.attemptBytes('OpenEnvironment', what === 'picture' ? files.environment : files.directions, 'environment.hdr'));
+    const contents = what === 'picture' ? files.environment : files.directions;
+    this.#must(this.viewer.attemptFile('OpenEnvironment', { name: 'environment.hdr', contents }));
     this.draw();
   }
 

@@ -5,11 +5,11 @@
 // Needs build/release, build/web and the packages of tests/; those of tests/bench/ are installed on first use.
 import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { cpus } from 'node:os';
-import { basename, dirname, extname, join, relative, resolve } from 'node:path';
+import { basename, dirname, join, relative, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { answerWithFile, gpus, launch, listen } from '../browser-tools.mjs';
 import { angles, background, calibrate, decode, directionsHdr, pfm, readPfm, shares } from './glass-directions.mjs';
 import { insert, markdown, median, sheet } from './glass-report.mjs';
 
@@ -76,7 +76,7 @@ function readOptions() {
   const list = (name) => values[name].split(',').filter(Boolean);
   const stranger = list('peers').find((name) => !peers.includes(name));
   if (stranger !== undefined) throw new Error(`--peers names '${stranger}'; there are ${peers.join(', ')}`);
-  if (!(values.gl in flags)) throw new Error(`--gl is '${values.gl}'; it must be one of ${Object.keys(flags).join(', ')}`);
+  if (!(values.gl in gpus)) throw new Error(`--gl is '${values.gl}'; it must be one of ${Object.keys(gpus).join(', ')}`);
   return {
     ...values,
     peers: list('peers'), techniques: list('techniques'),
@@ -86,14 +86,6 @@ function readOptions() {
     out: resolve(values.out),
   };
 }
-
-const flags = {
-  llvmpipe: ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'],
-  swiftshader: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-  gpu: process.platform === 'linux' ? ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'] : ['--ignore-gpu-blocklist'],
-};
-const quiet = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-  '--disable-sync', '--disable-gpu-watchdog'];
 
 const vitrine = process.env.VITRINE_BINARY ?? join(root, 'build/release/vitrine');
 const web = resolve(process.env.VITRINE_WEB ?? join(root, 'build/web'));
@@ -126,16 +118,13 @@ function run(...words) {
 
 const version = (name) => JSON.parse(readFileSync(join(here, `node_modules/${name}/package.json`), 'utf8')).version;
 
-async function serve(site, files) {
-  const types = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm' };
-  const server = createServer((request, response) => {
+/** Serves the site, and `files` from elsewhere. */
+function serveWith(site, files) {
+  return listen((request, response) => {
     const { pathname } = new URL(request.url, 'http://localhost');
-    const file = files[pathname] ?? join(site, pathname);
-    if (!existsSync(file)) return response.writeHead(404).end();
-    return response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' }).end(readFileSync(file));
+    const file = resolve(files[pathname] ?? join(site, pathname));
+    answerWithFile(dirname(file), `/${basename(file)}`, response);
   });
-  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
-  return server;
 }
 
 /** Truth, by the native ray tracer, and each technique's directions, by the native program. */
@@ -158,7 +147,6 @@ async function main() {
   const options = readOptions();
   prepare(options);
   const { build } = await import('esbuild');
-  const { chromium } = await import('playwright-core');
   const { PNG } = (await import('pngjs')).default;
   const { out, size } = options;
   mkdirSync(out, { recursive: true });
@@ -170,15 +158,13 @@ async function main() {
   });
   writeFileSync(join(out, 'site/index.html'), '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><script type="module" src="/page.js"></script>');
   writeFileSync(join(out, 'site/directions.hdr'), directionsHdr());
-  const server = await serve(join(out, 'site'), {
+  const server = await serveWith(join(out, 'site'), {
     '/': join(out, 'site/index.html'), '/model.glb': options.model, '/environment.hdr': options.environment,
     '/vitrine-core.wasm': join(web, 'vitrine-core.wasm'),
   });
   const environment = { ...process.env };
   if (options.gl === 'llvmpipe') environment.LIBGL_ALWAYS_SOFTWARE = '1';
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: [...quiet, ...flags[options.gl]], env: environment,
-  });
+  const browser = await launch(options.gl, { env: environment });
   try {
     const page = await browser.newPage({ viewport: { width: 900, height: 600 } });
     const complaints = [];
@@ -186,7 +172,7 @@ async function main() {
       if (message.type() === 'error') complaints.push(message.text());
     });
     page.on('pageerror', (reason) => complaints.push(String(reason)));
-    await page.goto(`http://127.0.0.1:${server.address().port}/`);
+    await page.goto(`${server.address}/`);
     await page.waitForFunction(() => window.bench !== undefined);
     const call = (name, ...values) => page.evaluate(([method, words]) => window.bench[method](...words), [name, values]);
     const shared = await call('open');

@@ -3,12 +3,11 @@
 // minified), in turns in one Chromium, the cache off, files gzipped. Read the ratios.
 //   node tests/bench/load.mjs [ROUNDS]       needs build/web and the packages of tests/
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { dirname, extname, join, resolve } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
-import { chromium } from 'playwright-core';
+import { launch, listen, typeOf } from '../browser-tools.mjs';
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 const site = join(root, 'build/bench');
@@ -67,9 +66,8 @@ async function bundle(name, contents) {
 }
 
 function serve() {
-  const types = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.glb': 'model/gltf-binary' };
   const cache = new Map();
-  const server = createServer((request, response) => {
+  return listen((request, response) => {
     const { pathname } = new URL(request.url, 'http://localhost');
     const file = pathname === '/model.glb' ? model : pathname.endsWith('.wasm') ? join(web, 'vitrine-core.wasm') : join(site, pathname);
     if (!cache.has(pathname)) {
@@ -78,10 +76,9 @@ function serve() {
     }
     const body = cache.get(pathname);
     if (!body) return response.writeHead(404).end();
-    const type = pages[pathname] ? 'text/html' : (types[extname(pathname)] ?? 'application/octet-stream');
+    const type = pages[pathname] ? 'text/html' : typeOf(pathname);
     return response.writeHead(200, { 'content-type': type, 'content-encoding': 'gzip', 'cache-control': 'no-store' }).end(body);
   });
-  return new Promise((ready) => server.listen(0, '127.0.0.1', () => ready(server)));
 }
 
 if (!existsSync(model)) {
@@ -92,12 +89,7 @@ mkdirSync(site, { recursive: true });
 await bundle('three.js', threeSource);
 await bundle('vitrine.js', vitrineSource);
 const server = await serve();
-const address = `http://127.0.0.1:${server.address().port}`;
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-    '--disable-sync', '--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'],
-});
+const browser = await launch();
 
 async function visit(path, screenshot) {
   const page = await browser.newPage({ viewport: { width: side, height: side } });
@@ -105,7 +97,7 @@ async function visit(path, screenshot) {
   const client = await page.context().newCDPSession(page);
   await client.send('Network.enable');
   client.on('Network.loadingFinished', ({ encodedDataLength }) => (bytes += encodedDataLength));
-  await page.goto(address + path);
+  await page.goto(server.address + path);
   await page.waitForFunction(() => window.firstFrame !== undefined, null, { timeout: 60000 });
   const time = await page.evaluate(() => window.firstFrame);
   if (screenshot) await page.screenshot({ path: join(site, `${path.slice(1)}.png`) });

@@ -1,5 +1,5 @@
 // The panel and the gallery: everything a visitor can set, in step with the store.
-import { environments, extraEnvironments, extraModels, outputs, presets, qualities, shapes, techniques } from './state.js';
+import { environments, extraEnvironments, extraModels, glasses, outputs, peels, presets, qualities, shapes, techniques } from './state.js';
 
 const element = (id) => document.getElementById(id);
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
@@ -59,18 +59,19 @@ export function buildControls(store, page) {
   const chooseModel = (model) => store.set({ model, orbit: 'auto auto auto', target: 'auto auto auto' });
   for (const shape of shapes) addShape(shape, capital(shape), `pictures/${shape}.png`, chooseModel);
   for (const [id, { title, picture }] of extraModels) addShape(id, title, picture, chooseModel);
-  for (const { id, name, ior } of presets) {
+  for (const { id, name, ior } of glasses) {
     const button = create('button', { type: 'button', className: 'chip', textContent: name });
-    button.dataset.preset = id;
+    button.dataset.glass = id;
     button.addEventListener('click', () => store.set({ ior }));
-    element('presets').append(button);
+    element('glasses').append(button);
   }
   fillTechniques(store, page);
+  for (const value of presets) addSegment('preset', value, capital(value), (preset) => store.set({ preset, layers: 0, steps: 0, events: 0 }));
   for (const value of qualities) addSegment('quality', value, capital(value), (quality) => store.set({ quality }));
   const named = [...environments.map((id) => [id, capital(id)]), ...[...extraEnvironments].map(([id, { title }]) => [id, title])];
   for (const [value, title] of named) addSegment('environment', value, title, (environment) => store.set({ environment }));
   for (const value of outputs) {
-    const input = addSegment('output', value, outputNames[value], (output) => store.set({ output }));
+    const input = addSegment('output', value, outputNames[value], (output) => showOutput(output, store, page));
     input.disabled = value !== 'picture' && !page.canShow.output;
   }
   for (const [value, name] of Object.entries(themeNames)) addSegment('theme', value, name, (theme) => store.set({ theme }));
@@ -99,13 +100,23 @@ export function buildControls(store, page) {
   document.body.classList.add('ready');
 }
 
+const isLayer = (output) => output.startsWith('layer');
+
+function showOutput(output, store, page) {
+  const isElsewhere = isLayer(output) && !peels(store.state.technique);
+  store.set(isElsewhere ? { output, technique: 'layered' } : { output });
+  if (isElsewhere) page.note('The technique is now Layered, whose layers these are');
+}
+
 function fillTechniques(store, page) {
   const option = ({ id, name, year }) => new Option(`${name} · ${year}`, id);
   element('technique').append(...techniques.map(option).reverse());
   const ladder = create('optgroup', { label: 'Another technique' }, ...techniques.map(option).reverse());
   const pictures = create('optgroup', { label: 'A stored picture', id: 'pictures' }, new Option('Ray-traced reference', 'reference'));
   element('compare').append(new Option('Nothing', 'none'), ladder, pictures);
-  element('technique').addEventListener('change', ({ target }) => store.set({ technique: target.value }));
+  element('technique').addEventListener('change', ({ target: { value } }) => {
+    store.set({ technique: value, output: isLayer(store.state.output) && !peels(value) ? 'picture' : store.state.output });
+  });
   element('compare').addEventListener('change', ({ target }) => {
     if (target.value === 'reference') page.chooseReference();
     else store.set({ compare: target.value });
@@ -131,33 +142,36 @@ function show(state, files, chooseModel, store) {
     element('pictures').append(new Option(files.get(state.compare), state.compare));
   }
 
-  for (const { id, ior } of presets) {
-    element('presets').querySelector(`[data-preset=${id}]`).setAttribute('aria-pressed', String(Math.abs(ior - state.ior) < 0.0005));
+  for (const { id, ior } of glasses) {
+    element('glasses').querySelector(`[data-glass=${id}]`).setAttribute('aria-pressed', String(Math.abs(ior - state.ior) < 0.0005));
   }
-  element('layer').max = state.layers - 1;
+  element('layer').max = (state.layers || state.resolved.layers) - 1;
   for (const [id, word] of Object.entries(sliders)) {
     const input = element(id);
-    if (Number(input.value) !== state[id]) input.value = state[id];
-    element(`${id}-value`).textContent = word(state[id]);
-    input.setAttribute('aria-valuetext', word(state[id]));
-    const share = (Math.min(input.max, state[id]) - input.min) / (input.max - input.min || 1);
+    const isOfPreset = state[id] === 0 && Object.hasOwn(state.resolved, id);
+    const value = isOfPreset ? state.resolved[id] : state[id];
+    const text = isOfPreset ? `${word(value)} (preset)` : word(value);
+    if (Number(input.value) !== value) input.value = value;
+    element(`${id}-value`).textContent = text;
+    input.setAttribute('aria-valuetext', text);
+    const share = (Math.min(input.max, value) - input.min) / (input.max - input.min || 1);
     input.style.setProperty('--share', Math.max(0, share).toFixed(4));
   }
   for (const id of checks) element(id).checked = state[id];
   for (const id of ['quality', 'environment', 'output', 'theme']) choose(id, state[id]);
+  choose('preset', state.layers || state.steps || state.events ? '' : state.preset); // none: the visitor's own numbers
   element('technique').value = state.technique;
   element('compare').value = state.compare;
 
   const shown = techniques.filter(({ id }) => id === state.technique || id === state.compare);
   element('summary').textContent = techniques.find(({ id }) => id === state.technique).summary;
   for (const id of ['ior', 'layers', 'steps', 'events']) {
-    const isUsed = shown.some(({ uses }) => uses.includes(id)) || (id === 'layers' && state.output.startsWith('layer'));
+    const isUsed = shown.some(({ uses }) => uses.includes(id)) || (id === 'layers' && isLayer(state.output));
     element(id).disabled = !isUsed;
     element(id).parentElement.classList.toggle('unused', !isUsed);
   }
-  const isLayer = state.output.startsWith('layer');
-  element('layer').disabled = !isLayer;
-  element('layer').parentElement.classList.toggle('unused', !isLayer);
+  element('layer').disabled = !isLayer(state.output);
+  element('layer').parentElement.classList.toggle('unused', !isLayer(state.output));
   const legend = legends[state.output] ?? [];
   element('legend').hidden = legend.length === 0;
   element('legend').replaceChildren(...legend.map(([className, textContent]) => create('span', { className, textContent })));

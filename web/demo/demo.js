@@ -2,7 +2,7 @@
 import { VitrineViewer } from '../element/vitrine-viewer.js';
 import { buildControls } from './controls.js';
 import { PathOverlay } from './path.js';
-import { Store, defaults, extraEnvironments, extraModels, loadExtraModels, readState, reference, techniques, writeState } from './state.js';
+import { Store, defaults, extraEnvironments, extraModels, loadExtraModels, peels, readState, reference, techniques, writeState } from './state.js';
 import { Wipe } from './wipe.js';
 
 const element = (id) => document.getElementById(id);
@@ -34,9 +34,10 @@ function attributesOf(state) {
     'environment-image': extraEnvironments.get(state.environment)?.url ?? state.environment,
     'skybox-image': state.backdrop ? '' : null,
     ior: state.ior,
-    layers: state.layers,
-    steps: state.steps,
-    'max-events': state.events,
+    preset: state.preset,
+    layers: state.layers || null,
+    steps: state.steps || null,
+    'max-events': state.events || null,
     exposure: Number((2 ** state.exposure).toPrecision(6)),
     output: state.output,
     layer: state.layer,
@@ -116,7 +117,8 @@ function showComparison(state) {
   if (technique) {
     const orbit = followedOrbit(state);
     wipe.showViewer((viewer) => setAttributes(viewer, {
-      ...attributesOf(state), technique: technique.id, 'camera-orbit': orbit, alt: `The same, ${technique.name}`,
+      ...attributesOf(state), technique: technique.id, output: state.output.startsWith('layer') && !peels(technique.id) ? 'picture' : state.output,
+      'camera-orbit': orbit, alt: `The same, ${technique.name}`,
     }));
   } else if (state.compare !== 'none') {
     wipe.showPicture(state.compare === 'reference' ? reference.url : state.compare);
@@ -156,9 +158,13 @@ left.addEventListener('progress', ({ detail }) => {
   element('progress').classList.toggle('done', detail.totalProgress >= 1);
 });
 left.addEventListener('render-scale', ({ detail }) => {
-  const { pixelWidth, pixelHeight, layers, steps, renderedDpr, reportedDpr } = detail;
+  const { pixelWidth, pixelHeight, preset, layers, steps, maxEvents, renderedDpr, reportedDpr, reason } = detail;
   const share = Math.round((100 * renderedDpr) / Math.min(2, reportedDpr ?? window.devicePixelRatio));
-  element('size').textContent = `${pixelWidth} × ${pixelHeight} (${share} %) · ${layers} layers · ${steps} steps`;
+  element('size').textContent = `${pixelWidth} × ${pixelHeight}${share < 100 ? ` (${share} %)` : ''} · ${layers} layers · ${steps} steps`;
+  element('size').title = `preset ${preset}, ${maxEvents} events`;
+  const { resolved } = store.state;
+  const isSame = resolved.layers === layers && resolved.steps === steps && resolved.events === maxEvents;
+  if (reason !== 'frame-time' && !isSame) store.set({ resolved: { layers, steps, events: maxEvents } });
 });
 left.addEventListener('frame', ({ detail }) => {
   if (detail?.milliseconds > 0) element('time').textContent = `${detail.milliseconds.toFixed(detail.milliseconds < 100 ? 1 : 0)} ms`;
@@ -257,6 +263,7 @@ async function copyLink() {
 
 buildControls(store, {
   files,
+  note,
   canShow: { output: 'output' in VitrineViewer.prototype, path: 'pathAt' in VitrineViewer.prototype },
   openFile,
   resetView,
@@ -270,7 +277,7 @@ buildControls(store, {
 store.subscribe((state, changed) => {
   showLeft(state);
   showComparison(state);
-  if (!['orbit', 'target', 'wipe', 'theme', 'compare'].some((key) => changed.has(key) && changed.size <= 2)) path.clear();
+  if (!['orbit', 'target', 'wipe', 'theme', 'compare', 'resolved'].some((key) => changed.has(key) && changed.size <= 2)) path.clear();
   if (!addressTimer) addressTimer = setTimeout(keepAddress, 300); // browsers allow few changes a second
 });
 left.toggleAttribute('camera-controls', true);

@@ -10,13 +10,18 @@ export const techniques = [
   { id: 'wyman', name: 'Wyman', year: 2005, uses: ['ior'], summary: 'Two refractions, the distance between them guessed from two known ones.' },
   { id: 'oliveira', name: 'Oliveira & Brauwers', year: 2007, uses: ['ior', 'steps'], summary: 'Two refractions, the back side found by a search in its depth.' },
   { id: 'layered', name: 'Layered', year: 2014, uses: ['ior', 'layers', 'steps', 'events'], summary: 'Peeled layers searched for every refraction and total reflection.' },
+  { id: 'exact', name: 'Exact', year: 2026, uses: ['ior', 'layers', 'steps', 'events'], summary: 'Layers that know their triangles, peeled once for a mesh: every meeting with the glass is where it is.' },
 ];
+
+/** Whether a technique peels layers from the eye, which can be shown. */
+export const peels = (id) => !['single', 'exact'].includes(id);
 
 export const shapes = ['knot', 'sphere', 'torus', 'goblet', 'bottle', 'diamond'];
 export const environments = ['studio', 'sky', 'checker'];
 export const qualities = ['auto', 'high', 'medium', 'low'];
 export const outputs = ['picture', 'analysis', 'layer-depth', 'layer-normal'];
-export const presets = [
+export const presets = ['low', 'medium', 'high'];
+export const glasses = [
   { id: 'water', name: 'Water', ior: 1.333 },
   { id: 'crown', name: 'Crown glass', ior: 1.523 },
   { id: 'flint', name: 'Flint', ior: 1.62 },
@@ -32,8 +37,8 @@ export const reference = {
 
 export const defaults = {
   model: 'knot', environment: 'sky', backdrop: true,
-  technique: 'layered', compare: 'none', wipe: 50,
-  ior: 1.5, layers: 4, steps: 50, events: 8, quality: 'auto',
+  technique: 'exact', compare: 'none', wipe: 50,
+  ior: 1.5, preset: 'medium', layers: 0, steps: 0, events: 0, quality: 'auto', // 0: as the preset says
   output: 'picture', layer: 0, exposure: 0, fov: 45, rotate: false,
   orbit: 'auto auto auto', target: 'auto auto auto', theme: 'auto',
 };
@@ -53,7 +58,7 @@ const words = (unit) => (text) => {
 const readers = {
   model: (text) => oneOf([...shapes, ...extraModels.keys()])(text), environment: (text) => oneOf([...environments, ...extraEnvironments.keys()])(text), backdrop: flag,
   technique: oneOf(ids), compare: oneOf(['none', 'reference', ...ids]), wipe: number(0, 100),
-  ior: number(1, 4), layers: number(1, 16, true), steps: number(1, 1000, true), events: number(1, 64, true), quality: oneOf(qualities),
+  ior: number(1, 4), preset: oneOf(presets), layers: number(0, 16, true), steps: number(0, 1000, true), events: number(0, 64, true), quality: oneOf(qualities),
   output: oneOf(outputs), layer: number(0, 15, true), exposure: number(-10, 10), fov: number(1, 170), rotate: flag,
   orbit: words('deg|rad|m|cm|mm|%'), target: words('m|cm|mm'), theme: oneOf(['auto', 'dark', 'light']),
 };
@@ -71,15 +76,19 @@ export async function loadExtraModels() {
   for (const { id, ...rest } of more) extraEnvironments.set(id, rest);
 }
 
-/** @param {string} search of the address @returns {{state: object, problems: string[]}} */
+/**
+ * `resolved`: what the settings are that the preset decides, as the viewer says.
+ * @param {string} search of the address @returns {{state: object, problems: string[]}}
+ */
 export function readState(search) {
-  const state = { ...defaults }, problems = [];
+  const state = { ...defaults, resolved: { layers: 8, steps: 256, events: 8 } }, problems = [];
   for (const [key, text] of new URLSearchParams(search)) {
     if (!Object.hasOwn(readers, key)) continue; // somebody else's
     const [value, problem] = readers[key](text);
     if (problem) problems.push(`${key} is '${text}'; it ${problem}`);
     else state[key] = value;
   }
+  if (state.output.startsWith('layer') && !peels(state.technique)) state.technique = 'layered';
   return { state, problems };
 }
 

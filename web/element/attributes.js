@@ -20,16 +20,20 @@
 export const shapes = ['sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond'];
 export const environments = ['studio', 'sky', 'checker'];
 
-const techniques = ['layered', 'oliveira', 'wyman', 'single', 'kay-thickness', 'kay-nonlinear', 'kay-linear'];
+const techniques = ['exact', 'layered', 'oliveira', 'wyman', 'single', 'kay-thickness', 'kay-nonlinear', 'kay-linear'];
+
+/** In vtPreset's order. */
+export const presets = ['low', 'medium', 'high'];
 
 /** What is shown, in vtOutput's order. */
 export const outputs = ['picture', 'analysis', 'layer-depth', 'layer-normal'];
 
 const string = (attribute, description, more) => ({ attribute, type: 'string', default: '', description, ...more });
 const boolean = (attribute, description) => ({ attribute, type: 'boolean', default: false, description });
-const oneOf = (attribute, values, description) => ({ attribute, type: 'enum', default: values[0], values, description });
+const oneOf = (attribute, values, description, more) => ({ attribute, type: 'enum', default: values[0], values, description, ...more });
 const number = (attribute, min, max, value, description, more) =>
   ({ attribute, type: 'number', default: value, min, max, description, ...more });
+const ofPreset = { integer: true, defaultText: "the preset's" };
 
 /** @type {Attribute[]} */
 export const attributes = [
@@ -50,9 +54,10 @@ export const attributes = [
   boolean('disable-zoom', 'Wheel, pinch and + − keys do not change the distance.'),
   number('ior', 1, 4, null, 'Index of refraction of the glass.', { defaultText: "the file's, else 1.5" }),
   oneOf('technique', techniques, 'How the glass is computed; see `vitrine list`.'),
-  number('layers', 1, 16, 4, 'Depth layers peeled.', { integer: true }),
-  number('steps', 1, 1000, 50, 'Linear search steps a segment.', { integer: true }),
-  number('max-events', 1, 64, 8, 'Refractions and internal reflections of a path.', { integer: true }),
+  oneOf('preset', presets, 'What layers, steps and max-events are where they are absent: less work for weak GPUs, more accuracy for strong ones.', { default: 'medium' }),
+  number('layers', 1, 16, null, 'Depth layers peeled.', ofPreset),
+  number('steps', 1, 1000, null, 'Search steps a segment.', ofPreset),
+  number('max-events', 1, 64, null, 'Refractions and internal reflections of a path.', ofPreset),
   oneOf('output', outputs, 'picture; analysis: paths by colour (red two refractions, blue more, green total reflection, grey lost); or depth or normals of one layer.'),
   number('layer', 0, 15, 0, 'Which layer is shown, 0 the nearest.', { integer: true }),
   number('samples', 1, 4096, 64, 'Samples a pixel, for smooth edges: added one a frame once the view rests. 1: a single one, and nothing is added.', { integer: true }),

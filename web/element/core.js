@@ -1,5 +1,6 @@
 // The compiled module, loaded once a page, and one Viewer (web/viewer.c) for each canvas.
 import createVitrine from '../vitrine-core.js';
+import { outputs, presets } from './attributes.js';
 import { openInCore } from './picture.js';
 
 /** Browsers keep about 16 contexts; some are left to the rest of the page. */
@@ -113,6 +114,15 @@ export class Viewer {
   /** A call that answers with a sentence, or nothing; returns that sentence or ''. */
   attempt(name, ...values) {
     return this.#core.UTF8ToString(this.call(name, ...values));
+  }
+
+  /**
+   * Settings of the glass (vtViewer_SetGlass); layers, steps and maxEvents null: as the preset says.
+   * @returns {string} a sentence, or ''
+   */
+  setGlass({ technique, ior, preset, layers, steps, maxEvents, output, layer, exposure, transparent, samples, lessened }) {
+    return this.attempt('SetGlass', technique, ior, presets.indexOf(preset), layers ?? 0, steps ?? 0, maxEvents ?? 0, outputs.indexOf(output),
+      layer, exposure, Number(transparent), samples, Number(lessened));
   }
 
   /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */

@@ -2,13 +2,17 @@
 const slow = 33, fast = 12; // milliseconds a frame: above, a step down; below, a step up
 const slowFrames = 2, fastFrames = 8; // in a row, before a step
 
-/** Parts of resolution and settings. Each step costs at most 2.7 times the next: up and down do not alternate. */
+/**
+ * Parts of the resolution; `lessened`: settings at most those of preset low, which makes a pixel of layered up to twice
+ * as fast. Each step costs at most 2.7 times the next: up and down do not alternate.
+ */
 export const levels = [
-  { scale: 1, steps: 1, layers: 16, maxEvents: 64 },
-  { scale: 0.75, steps: 1, layers: 16, maxEvents: 64 },
-  { scale: 0.5, steps: 0.8, layers: 16, maxEvents: 64 },
-  { scale: 0.35, steps: 0.6, layers: 3, maxEvents: 6 },
-  { scale: 0.25, steps: 0.5, layers: 2, maxEvents: 4 },
+  { scale: 1, lessened: false },
+  { scale: 0.75, lessened: false },
+  { scale: 0.5, lessened: false },
+  { scale: 0.43, lessened: true },
+  { scale: 0.35, lessened: true },
+  { scale: 0.25, lessened: true },
 ];
 const fixed = { high: 0, medium: 1, low: 2 };
 
@@ -43,16 +47,9 @@ export class Quality {
     return true;
   }
 
-  /** Settings of the next frame, from those of a full one. */
-  reduce({ layers, steps, maxEvents, ...rest }) {
-    if (this.mode !== 'auto') return { ...rest, layers, steps, maxEvents }; // only the resolution
-    const level = levels[this.level];
-    return {
-      ...rest,
-      layers: Math.min(layers, level.layers),
-      steps: Math.max(1, Math.round(steps * level.steps)),
-      maxEvents: Math.min(maxEvents, level.maxEvents),
-    };
+  /** Whether less is computed for a pixel, too. */
+  get lessened() {
+    return this.mode === 'auto' && levels[this.level].lessened; // else only the resolution
   }
 
   get scale() {

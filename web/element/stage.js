@@ -1,6 +1,5 @@
 // A canvas with its viewer: what it shows, when it draws, and how well. Nothing is drawn unless the canvas can be
 // seen and something changed; once all rests, samples are added to the picture until it has enough.
-import { outputs } from './attributes.js';
 import { builtIn } from './loading.js';
 import { Viewer } from './core.js';
 import { Orbit } from './orbit.js';
@@ -25,8 +24,8 @@ const stillAfter = 250; // milliseconds without motion until the full frame
 export class Stage {
   orbit = new Orbit();
   quality = new Quality();
-  /** Of SetGlass, for a full frame; ior null: the file's. */
-  glass = { technique: 'layered', ior: null, layers: 4, steps: 50, maxEvents: 8, output: 'picture', layer: 0, exposure: 0, transparent: true, samples: 64 };
+  /** Of Viewer.setGlass, for a full frame; ior null: the file's. */
+  glass = { technique: 'exact', ior: null, preset: 'medium', layers: null, steps: null, maxEvents: null, output: 'picture', layer: 0, exposure: 0, transparent: true, samples: 64 };
   scene = { model: null, environment: builtIn('environment', 'studio') };
 
   #host;
@@ -200,11 +199,8 @@ export class Stage {
     else if (isNew) this.#told.shown(kind);
   }
 
-  #applyGlass(glass) {
-    const { technique, ior, layers, steps, maxEvents, output, layer, exposure, transparent, samples } = glass;
-    const shown = Math.min(layer, layers - 1); // a reduced frame may have fewer
-    return this.#viewer.attempt('SetGlass', technique, ior ?? this.#fileIor, layers, steps, maxEvents, outputs.indexOf(output),
-      shown, exposure, Number(transparent), samples);
+  #applyGlass(glass, lessened = false) {
+    return this.#viewer.setGlass({ ...glass, ior: glass.ior ?? this.#fileIor, lessened });
   }
 
   #applyView() {
@@ -269,12 +265,11 @@ export class Stage {
     const { quality } = this;
     const isNew = this.#dirty;
     this.#dirty = false;
-    const glass = quality.reduce(this.glass);
     const [width, height] = this.#size(quality.scale);
     let problem = '';
     if (isNew) {
       this.#frameObject();
-      problem = this.#applyGlass(glass) || this.#applyView();
+      problem = this.#applyGlass(this.glass, quality.lessened) || this.#applyView();
       if (canvas.width !== width || canvas.height !== height || this.#drawn.pixelWidth === undefined) {
         [canvas.width, canvas.height] = [width, height];
         problem ||= this.#viewer.attempt('Resize', width, height);
@@ -285,12 +280,15 @@ export class Stage {
     this.#isRefining = drawn > 0;
     if (drawn < 0) problem ||= this.#viewer.problem();
     if (problem) this.#told.failed(problem);
-    if (isNew) this.#tellScale({ pixelWidth: width, pixelHeight: height, layers: glass.layers, steps: glass.steps });
+    if (isNew) this.#tellScale(width, height);
     else if (drawn === 0) return;
     this.#awaitFrame(start, quality.moving);
   }
 
-  #tellScale(size) {
+  #tellScale(pixelWidth, pixelHeight) {
+    const { layers, steps, maxEvents } = this.#viewer.info();
+    const preset = this.quality.lessened ? 'low' : this.glass.preset;
+    const size = { pixelWidth, pixelHeight, preset, layers, steps, maxEvents };
     if (Object.keys(size).every((key) => this.#drawn[key] === size[key])) return;
     this.#drawn = size;
     const { reason, scale } = this.quality;

@@ -17,7 +17,7 @@ const spinPause = 3000; // milliseconds after the last touch
  * @fires error {type: 'loadfailure'|'webglcontextlost'|'unsupported'|'invalid', sourceError}
  * @fires camera-change {source: 'user-interaction'|'none'}
  * @fires frame {milliseconds}: one is on the screen, and how long it took
- * @fires render-scale {reportedDpr, renderedDpr, minimumDpr, pixelWidth, pixelHeight, layers, steps, reason}
+ * @fires render-scale {reportedDpr, renderedDpr, minimumDpr, pixelWidth, pixelHeight, preset, layers, steps, maxEvents, reason}
  */
 export class VitrineViewer extends HTMLElement {
   static observedAttributes = attributes.map(({ attribute }) => attribute);
@@ -225,8 +225,8 @@ export class VitrineViewer extends HTMLElement {
     const isFirst = this.#values.src === undefined;
     this.#values = values;
     const stage = this.#stage;
-    const { technique, ior, layers, steps, maxEvents, output, layer, exposure, samples } = values;
-    stage.glass = { technique, ior, layers, steps, maxEvents, output, layer, samples, exposure: Math.log2(exposure), transparent: !this.hasAttribute('skybox-image') };
+    const { technique, ior, preset, layers, steps, maxEvents, output, layer, exposure, samples } = values;
+    stage.glass = { technique, ior, preset, layers, steps, maxEvents, output, layer, samples, exposure: Math.log2(exposure), transparent: !this.hasAttribute('skybox-image') };
     stage.quality.mode = values.quality;
 
     this.#access.describe(values);
