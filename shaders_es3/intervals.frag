@@ -11,6 +11,10 @@ uniform int u_axis;
 
 layout(location = 0) out uvec4 o_inner;
 layout(location = 1) out uvec4 o_outer;
+#ifdef FIRST_LEVEL
+layout(location = 2) out uvec4 o_near; // `outer` of the cell's own four columns
+layout(location = 3) out uint o_column; // of the 4 x 4 about the cell the nearest with a surface
+#endif
 
 #ifdef FIRST_LEVEL
 // What a surface may bulge between its samples, in steps of stored depth.
@@ -53,23 +57,44 @@ void readColumn(ivec2 texel, out vec4 inner, out vec4 outer)
 }
 #endif
 
+#ifdef FIRST_LEVEL
 void main()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy);
+    ivec2 cell = ivec2(gl_FragCoord.xy);
+    vec4 inner = vec4(0.0, NONE, NONE, 0.0), outer = NO_OUTER, near = NO_OUTER;
+    float nearest = 1e9;
+    o_column = 0u;
+    // Silhouettes run between columns: what lies one column further may reach into the cell.
+    for (int i = 0; i < 16; ++i) {
+        ivec2 step = ivec2(i & 3, i >> 2) - 1;
+        vec4 nextInner, nextOuter;
+        readColumn(clamp(cell + step, ivec2(0), ivec2(u_cube.x - 1)), nextInner, nextOuter);
+        outer = joinOuter(outer, nextOuter);
+        vec2 apart = vec2(step) - 0.5;
+        float distance = dot(apart, apart);
+        if (distance < 1.0) {
+            inner = meetInner(inner, nextInner);
+            near = joinOuter(near, nextOuter);
+        }
+        if (nextOuter.x < NONE && distance < nearest) {
+            nearest = distance;
+            o_column = uint(i);
+        }
+    }
+    o_inner = uvec4(inner);
+    o_outer = uvec4(outer);
+    o_near = uvec4(near);
+}
+#else
+void main()
+{
     vec4 inner = vec4(0.0, NONE, NONE, 0.0), outer = NO_OUTER;
     for (int i = 0; i < 4; ++i) {
-        ivec2 step = ivec2(i & 1, i >> 1);
-        vec4 nextInner, nextOuter;
-#ifdef FIRST_LEVEL
-        readColumn(min(texel + step, u_cube.x - 1), nextInner, nextOuter);
-#else
-        ivec2 below = tileTexel(2 * texel + step, u_level);
-        nextInner = vec4(texelFetch(u_intervals, ivec3(below, 2 * u_axis), 0));
-        nextOuter = vec4(texelFetch(u_intervals, ivec3(below, 2 * u_axis + 1), 0));
-#endif
-        inner = meetInner(inner, nextInner);
-        outer = joinOuter(outer, nextOuter);
+        ivec2 below = tileTexel(2 * ivec2(gl_FragCoord.xy) + ivec2(i & 1, i >> 1), u_level);
+        inner = meetInner(inner, vec4(texelFetch(u_intervals, ivec3(below, 3 * u_axis), 0)));
+        outer = joinOuter(outer, vec4(texelFetch(u_intervals, ivec3(below, 3 * u_axis + 1), 0)));
     }
     o_inner = uvec4(inner);
     o_outer = uvec4(outer);
 }
+#endif

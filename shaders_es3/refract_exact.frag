@@ -15,8 +15,6 @@ void main()
     bool inside = dot(hit.flatNormal, direction) > 0.0; // an eye within the glass sees its back faces
     bool isMet = true, isNew = true, anyReflected = false;
     int status = VT_PATH_LOST, events = 0, axis = 0, tried = 0, attempt = 0;
-    // Layers from the eye have no second side to ask.
-    int attempts = u_cube.z == 1 ? 4 : 0;
     Search s;
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         if (isMet) {
@@ -44,7 +42,8 @@ void main()
             break;
         }
         TriangleHit found;
-        if (!s.isFree && tryCell(s, hit.position, direction, inside, attempt, found)) {
+        bool isEmpty = false;
+        if (!s.isFree && tryCell(s, hit.position, direction, inside, attempt, found, isEmpty)) {
             hit = surfaceAt(found);
             isMet = true;
             attempt = 0;
@@ -53,12 +52,14 @@ void main()
         // A ray that has come out of the glass, or into it, without a surface has missed a wall too steep for
         // this side: more of the cell's surfaces are tried, then the next side.
         bool over = s.leave >= s.ray.end;
-        bool crossed = !s.isFree && fits(readIntervals(s, s.cell, 0, !inside), s.low, s.high, 0.0, !inside);
+        bool crossed = !s.isFree && fits(readIntervals(s, s.cell, 0, inside ? NEAR : INNER), s.low, s.high, 0.0, !inside);
         if (over && !inside && !crossed) {
             status = VT_PATH_EXITED;
             break;
         }
-        if (crossed && !over && attempt < attempts) {
+        // Layers from the eye have no next side to ask.
+        int attempts = isEmpty && !inside ? 1 : crossed && !over && u_cube.z == 1 ? 5 : 0;
+        if (attempt < attempts) {
             ++attempt;
             continue;
         }

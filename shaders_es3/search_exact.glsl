@@ -20,7 +20,11 @@
 //   for its next event does not wait for its neighbours', which software renderers and GPUs would make it do.
 uniform usampler2DArray u_cubeSurfaces;  // four layers a texel
 uniform usampler2DArray u_cubeTriangles; // of those surfaces
-uniform usampler2DArray u_intervals;     // of each side: inner (even slices) and outer (odd)
+uniform usampler2DArray u_cubeColumns;   // for each cell a column about it that has a surface
+uniform usampler2DArray u_intervals;     // of each side three slices, below
+
+const int INNER = 0, OUTER = 1; // pyramids
+const int NEAR = 2;             // cells only: the outer intervals of their own four columns
 
 // In cells; from trials with the bunny, the cow, the knot and the torus at 64 to 512 texels a side.
 const float START = 4.0;  // depth within which a surface may be the one that the ray starts on
@@ -90,9 +94,9 @@ Search startSearch(vec3 origin, vec3 direction, int axis)
     return s;
 }
 
-vec4 readIntervals(Search s, ivec2 tile, int level, bool inside)
+vec4 readIntervals(Search s, ivec2 tile, int level, int slice)
 {
-    vec4 b = vec4(texelFetch(u_intervals, ivec3(tileTexel(tile, level), 2 * s.axis + (inside ? 0 : 1)), 0));
+    vec4 b = vec4(texelFetch(u_intervals, ivec3(tileTexel(tile, level), 3 * s.axis + slice), 0));
     return s.ray.mirrored ? VT_CUBE_DEPTH - b.wzyx : b;
 }
 
@@ -115,7 +119,7 @@ void walkTiles(inout Search s, bool inside)
         // The tile's far sides, and where the ray came into the cell: from the cell alone, so that every way
         // here gives the same numbers.
         ivec2 tile = s.cell >> s.level;
-        vec4 b = readIntervals(s, tile, s.level, inside);
+        vec4 b = readIntervals(s, tile, s.level, inside ? INNER : OUTER);
         vec2 bounds = vec2((tile + s.positive) << s.level);
         s.exits = (bounds - s.ray.origin) * s.ray.inverse;
         vec2 enters = (vec2(s.cell + 1 - s.positive) - s.ray.origin) * s.ray.inverse;
@@ -176,17 +180,20 @@ int nearestSurface(Search s, ivec2 texel, float window, uint kind)
 }
 
 // Does a triangle near the cell lie in the ray's way? attempt 0: one of the column nearest to the ray, of the
-// kind that the ray looks for; 1 to 4: any of the cell's four columns.
-bool tryCell(Search s, vec3 origin, vec3 direction, bool inside, int attempt, out TriangleHit hit)
+// kind that the ray looks for; 1: one of the nearest column that has any; 2 to 5: of any kind in the cell's
+// four columns.
+bool tryCell(Search s, vec3 origin, vec3 direction, bool inside, int attempt, out TriangleHit hit, out bool isEmpty)
 {
     float cellDepth = VT_CUBE_DEPTH / float(u_cube.x);
-    bool wide = attempt > 0;
+    bool wide = attempt > 1;
     vec2 middle = s.ray.origin + 0.5 * (s.enter + min(s.leave, s.ray.end)) * s.ray.direction;
-    ivec2 corner = s.cell + ivec2((attempt - 1) & 1, (attempt - 1) >> 1);
-    ivec2 texel = wide ? corner : ivec2(floor(middle + 0.5));
+    int column = int(texelFetch(u_cubeColumns, ivec3(s.cell, s.axis), 0).r);
+    ivec2 texel = attempt == 0 ? ivec2(floor(middle + 0.5)) : s.cell + ivec2(column & 3, column >> 2) - 1;
+    texel = wide ? s.cell + ivec2(attempt & 1, (attempt >> 1) - 1) : texel;
     uint kind = wide ? ANY : inside != s.ray.mirrored ? LEAVING : ENTERING;
     int surface = nearestSurface(s, texel, wide ? 1e9 : WINDOW * cellDepth, kind);
-    if (surface < 0) {
+    isEmpty = surface < 0;
+    if (isEmpty) {
         return false;
     }
     int groups = (u_cube.y + 3) / 4;

@@ -372,7 +372,8 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
                                           .cubeSurfaces = &renderer->cube.surfaces,
                                           .cubeTriangles = &renderer->cube.triangles,
                                           .intervals = &renderer->cube.intervals,
-                                          .triangles = &renderer->mesh.triangles});
+                                          .triangles = &renderer->mesh.triangles,
+                                          .cubeColumns = &renderer->cube.columns});
 }
 
 static void drawStraight(vtRenderer* renderer, const vtFrame* frame)

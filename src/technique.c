@@ -11,7 +11,7 @@
 #define VT_REFRACT_SAMPLERS                                                                                  \
     {                                                                                                        \
         "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles"                                \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns"               \
     }
 
 static const vtTechniqueRow rows[vt_techniqueCount] = {

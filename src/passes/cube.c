@@ -60,17 +60,24 @@ vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layer
     *changed |= vtTexture_Resize(&pass->surfaces, gl, GL_RGBA16UI, size, size, sides * groups);
     *changed |= vtTexture_Resize(&pass->triangles, gl, GL_RGBA32UI, size, size, sides * groups);
     // Half as high again: the levels above the first stand side by side on top of it.
-    *changed |= vtTexture_Resize(&pass->intervals, gl, GL_RGBA16UI, size, size + size / 2, 2 * sides);
+    *changed |= vtTexture_Resize(&pass->intervals, gl, GL_RGBA16UI, size, size + size / 2, 3 * sides);
     for (int i = 0; i < 2; ++i) {
         *changed |= vtTexture_Resize(&pass->depthBuffers[i], gl, GL_DEPTH_COMPONENT32F, size, size, 0);
-        *changed |= vtTexture_Resize(&pass->scratch[i], gl, GL_RGBA16UI, size, size, 0);
     }
+    for (int i = 0; i < 4; ++i) {
+        *changed |= vtTexture_Resize(&pass->scratch[i], gl, i < 3 ? GL_RGBA16UI : GL_R16UI, size, size, 0);
+    }
+    *changed |= vtTexture_Resize(&pass->columns, gl, GL_R16UI, size, size, sides);
     if (!*changed) {
         return vtSucceed(error);
     }
     vtDestroyFramebuffers(gl, &pass->peelFramebuffers[0][0], 3 * VT_MAX_LAYER_GROUPS * 2);
-    vtAttachment scratch[] = {{&pass->scratch[0], 0}, {&pass->scratch[1], 0}};
-    vtResult result = vtMakeFramebuffer(gl, "intervals", scratch, 2, NULL, &pass->levelFramebuffer, error);
+    vtAttachment scratch[] = {
+        {&pass->scratch[0], 0}, {&pass->scratch[1], 0}, {&pass->scratch[2], 0}, {&pass->scratch[3], 0}};
+    vtResult result = vtMakeFramebuffer(gl, "cells", scratch, 4, NULL, &pass->firstFramebuffer, error);
+    if (result == vt_ok) {
+        result = vtMakeFramebuffer(gl, "intervals", scratch, 2, NULL, &pass->levelFramebuffer, error);
+    }
     if (result == vt_ok) {
         result = vtMakeFramebuffer(gl, "cube start", NULL, 0, &pass->depthBuffers[1], &pass->startFramebuffer,
                                    error);
@@ -108,23 +115,23 @@ static void peelSide(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer*
     }
 }
 
-/// Copies what was drawn into both scratch textures to its place in the pyramid: WebGL draws into no texture
+/// Copies what was drawn into the scratch textures to its place in the pyramid: WebGL draws into no texture
 /// that is read.
 static void keepLevel(const vtCubePass* pass, const vtGL* gl, int side, int level)
 {
     const int size = pass->surfaces.width;
     const int x = level == 0 ? 0 : size - (size >> (level - 1)), y = level == 0 ? 0 : size;
     vtTexture_Bind(&pass->intervals, gl, 0);
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < (level == 0 ? 3 : 2); ++i) {
         gl->ReadBuffer(GL_COLOR_ATTACHMENT0 + (GLenum)i);
-        gl->CopyTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, x, y, 2 * side + i, 0, 0, size >> level, size >> level);
+        gl->CopyTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, x, y, 3 * side + i, 0, 0, size >> level, size >> level);
     }
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
 }
 
 void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer* mesh)
 {
-    const int sides = pass->intervals.layers / 2;
+    const int sides = pass->intervals.layers / 3;
     const int groups = pass->surfaces.layers / sides;
     gl->Enable(GL_DEPTH_TEST);
     gl->UseProgram(pass->peelProgram);
@@ -134,19 +141,23 @@ void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer*
     }
     gl->Disable(GL_DEPTH_TEST);
 
+    const int size = pass->surfaces.width;
     gl->UseProgram(pass->firstProgram);
     for (int side = 0; side < sides; ++side) {
         vtTexture_Bind(&pass->surfaces, gl, 0);
-        vtBindFramebuffer(gl, pass->levelFramebuffer, pass->surfaces.width, pass->surfaces.width);
+        vtBindFramebuffer(gl, pass->firstFramebuffer, size, size);
         gl->Uniform1i(pass->firstAxis, side);
         gl->DrawArrays(GL_TRIANGLES, 0, 3);
         keepLevel(pass, gl, side, 0);
+        vtTexture_Bind(&pass->columns, gl, 0);
+        gl->ReadBuffer(GL_COLOR_ATTACHMENT3);
+        gl->CopyTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, side, 0, 0, size, size);
+        gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
     }
     gl->UseProgram(pass->levelProgram);
     vtTexture_Bind(&pass->intervals, gl, 0);
-    for (int level = 1; pass->surfaces.width >> level > 0; ++level) {
-        vtBindFramebuffer(gl, pass->levelFramebuffer, pass->surfaces.width >> level,
-                          pass->surfaces.width >> level);
+    for (int level = 1; size >> level > 0; ++level) {
+        vtBindFramebuffer(gl, pass->levelFramebuffer, size >> level, size >> level);
         gl->Uniform1i(pass->levelBelow, level - 1);
         for (int side = 0; side < sides; ++side) {
             gl->Uniform1i(pass->levelAxis, side);
@@ -159,13 +170,17 @@ void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer*
 void vtCubePass_Destroy(vtCubePass* pass, const vtGL* gl)
 {
     vtDestroyFramebuffers(gl, &pass->startFramebuffer, 1);
+    vtDestroyFramebuffers(gl, &pass->firstFramebuffer, 1);
     vtDestroyFramebuffers(gl, &pass->levelFramebuffer, 1);
     vtDestroyFramebuffers(gl, &pass->peelFramebuffers[0][0], 3 * VT_MAX_LAYER_GROUPS * 2);
     vtTexture_Destroy(&pass->surfaces, gl);
     vtTexture_Destroy(&pass->triangles, gl);
     vtTexture_Destroy(&pass->intervals, gl);
+    vtTexture_Destroy(&pass->columns, gl);
     for (int i = 0; i < 2; ++i) {
         vtTexture_Destroy(&pass->depthBuffers[i], gl);
+    }
+    for (int i = 0; i < 4; ++i) {
         vtTexture_Destroy(&pass->scratch[i], gl);
     }
     gl->DeleteProgram(pass->peelProgram);
@@ -179,5 +194,6 @@ size_t vtCubePass_Bytes(const vtCubePass* pass)
     return vtTexture_Bytes(&pass->surfaces) + vtTexture_Bytes(&pass->triangles) +
            vtTexture_Bytes(&pass->intervals) + vtTexture_Bytes(&pass->depthBuffers[0]) +
            vtTexture_Bytes(&pass->depthBuffers[1]) + vtTexture_Bytes(&pass->scratch[0]) +
-           vtTexture_Bytes(&pass->scratch[1]);
+           vtTexture_Bytes(&pass->scratch[1]) + vtTexture_Bytes(&pass->scratch[2]) +
+           vtTexture_Bytes(&pass->scratch[3]) + vtTexture_Bytes(&pass->columns);
 }

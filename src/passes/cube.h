@@ -11,13 +11,14 @@ typedef struct vtCubePass {
     GLint peelAxis, firstAxis, levelAxis, levelBelow;
     GLuint startFramebuffer;
     GLuint peelFramebuffers[3 * VT_MAX_LAYER_GROUPS][2]; ///< by slice and by depth buffer
-    GLuint levelFramebuffer;
+    GLuint firstFramebuffer, levelFramebuffer;
     int layers;
     vtTexture depthBuffers[2];
     vtTexture surfaces;   ///< RGBA16UI array, four layers a texel: VT_CUBE_... in constants.h
     vtTexture triangles;  ///< RGBA32UI array, those surfaces' triangles
-    vtTexture intervals;  ///< RGBA16UI array, inner and outer intervals of each axis; its levels: cube.glsl
-    vtTexture scratch[2]; ///< RGBA16UI: a level of the pyramid while it is drawn
+    vtTexture intervals;  ///< RGBA16UI array, three slices an axis: INNER, OUTER, NEAR; its levels: cube.glsl
+    vtTexture columns;    ///< R16UI array: for each cell of a side, which column about it has a surface
+    vtTexture scratch[4]; ///< RGBA16UI thrice, R16UI: a level of the pyramid while it is drawn
 } vtCubePass;
 
 vtResult vtCubePass_Create(vtCubePass* pass, const vtGL* gl, vtError* error);

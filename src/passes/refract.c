@@ -38,7 +38,8 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     // Units as VT_REFRACT_SAMPLERS in technique.c names them.
     const vtTexture* units[] = {inputs->surface,       inputs->innerDistances, inputs->layerDepths,
                                 inputs->layerNormals,  inputs->mergedDepths,   inputs->cubeSurfaces,
-                                inputs->cubeTriangles, inputs->intervals,      inputs->triangles};
+                                inputs->cubeTriangles, inputs->intervals,      inputs->triangles,
+                                inputs->cubeColumns};
     for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
         if (units[unit]->name != 0) {
             vtTexture_Bind(units[unit], gl, unit);

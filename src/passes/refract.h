@@ -24,6 +24,7 @@ typedef struct vtRefractInputs {
     const vtTexture* cubeTriangles;
     const vtTexture* intervals;
     const vtTexture* triangles;
+    const vtTexture* cubeColumns;
 } vtRefractInputs;
 
 vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error);
