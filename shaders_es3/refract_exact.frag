@@ -41,18 +41,17 @@ void main()
         if (s.steps < 0) {
             break;
         }
-        TriangleHit found;
+        Passage p = passTile(s, s.cell >> s.level, s.level);
         bool isEmpty = false;
-        if (!s.isFree && tryCell(s, hit.position, direction, inside, attempt, found, isEmpty)) {
-            hit = surfaceAt(found);
+        if (!s.isOver && tryCell(s, p, direction, inside, attempt, hit, isEmpty)) {
             isMet = true;
             attempt = 0;
             continue;
         }
         // A ray that has come out of the glass, or into it, without a surface has missed a wall too steep for
         // this side: more of the cell's surfaces are tried, then the next side.
-        bool over = s.leave >= s.ray.end;
-        bool crossed = !s.isFree && fits(readIntervals(s, s.cell, 0, inside ? NEAR : INNER), s.low, s.high, 0.0, !inside);
+        bool over = p.leave >= s.ray.end;
+        bool crossed = !s.isOver && fits(readIntervals(s, s.cell, 0, inside ? NEAR : INNER), p.low, p.high, 0.0, !inside);
         if (over && !inside && !crossed) {
             status = VT_PATH_EXITED;
             break;
@@ -71,7 +70,7 @@ void main()
             axis = axis == 2 ? 0 : axis + 1;
             isNew = true;
         }
-        s.cell += s.exits.x <= s.exits.y ? ivec2(2 * s.positive.x - 1, 0) : ivec2(0, 2 * s.positive.y - 1);
+        s.cell += p.exits.x <= p.exits.y ? ivec2(2 * s.positive.x - 1, 0) : ivec2(0, 2 * s.positive.y - 1);
     }
     writePath(direction, status, events, anyReflected);
 }

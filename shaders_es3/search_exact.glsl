@@ -75,12 +75,27 @@ struct Search {
     int level; // of the pyramid
     int steps; // left
     ivec2 cell;
-    // Of the tile read last.
-    float enter, leave; // parameters
-    float low, high;    // depths there
-    vec2 exits;         // parameters at its far sides
-    bool isFree;        // no surface in the ray's way
+    bool isOver; // no surface to the side's end
 };
+
+// A tile's part of the ray. It follows from the cell alone, so that every way to the cell gives the same numbers.
+struct Passage {
+    vec2 exits;         // parameters at the tile's far sides
+    float enter, leave; // parameters where the ray comes into the cell and leaves the tile
+    float low, high;    // depths there
+};
+
+Passage passTile(Search s, ivec2 tile, int level)
+{
+    Passage p;
+    p.exits = (vec2((tile + s.positive) << level) - s.ray.origin) * s.ray.inverse;
+    vec2 enters = (vec2(s.cell + 1 - s.positive) - s.ray.origin) * s.ray.inverse;
+    p.enter = max(max(enters.x, enters.y), 0.0);
+    p.leave = min(p.exits.x, p.exits.y);
+    p.low = s.ray.originZ + p.enter * s.ray.slopeZ;
+    p.high = s.ray.originZ + min(p.leave, s.ray.end) * s.ray.slopeZ;
+    return p;
+}
 
 Search startSearch(vec3 origin, vec3 direction, int axis)
 {
@@ -116,42 +131,35 @@ void walkTiles(inout Search s, bool inside)
 {
     float start = s.ray.originZ + START * VT_CUBE_DEPTH / float(u_cube.x);
     while (true) {
-        // The tile's far sides, and where the ray came into the cell: from the cell alone, so that every way
-        // here gives the same numbers.
         ivec2 tile = s.cell >> s.level;
         vec4 b = readIntervals(s, tile, s.level, inside ? INNER : OUTER);
-        vec2 bounds = vec2((tile + s.positive) << s.level);
-        s.exits = (bounds - s.ray.origin) * s.ray.inverse;
-        vec2 enters = (vec2(s.cell + 1 - s.positive) - s.ray.origin) * s.ray.inverse;
-        s.enter = max(max(enters.x, enters.y), 0.0);
-        s.leave = min(s.exits.x, s.exits.y);
-        s.low = s.ray.originZ + s.enter * s.ray.slopeZ;
-        s.high = s.ray.originZ + min(s.leave, s.ray.end) * s.ray.slopeZ;
+        Passage p = passTile(s, tile, s.level);
         // Only cells let a ray off the surface it starts on: what a tile allows, all cells below must allow.
-        s.isFree = fits(b, s.low, s.high, s.level == 0 ? start : 0.0, inside);
-        if ((s.isFree ? s.leave >= s.ray.end : s.level == 0) || --s.steps < 0) {
+        bool isFree = fits(b, p.low, p.high, s.level == 0 ? start : 0.0, inside);
+        s.isOver = isFree && p.leave >= s.ray.end;
+        if (s.isOver || (!isFree && s.level == 0) || --s.steps < 0) {
             return;
         }
         // Into the next tile, or down. Along the side that is crossed, the cell is the one that a walk from
         // cell to cell would come to, by the same numbers, columns before rows where they tie.
-        bool across = s.exits.x <= s.exits.y;
+        bool across = p.exits.x <= p.exits.y;
         vec3 other = across ? vec3(s.ray.origin.y, s.ray.direction.y, s.ray.inverse.y)
                             : vec3(s.ray.origin.x, s.ray.direction.x, s.ray.inverse.x);
         int ahead = across ? s.positive.y : s.positive.x;
-        float side = floor(other.x + s.leave * other.y);
+        float side = floor(other.x + p.leave * other.y);
         float before = (side + float(1 - ahead) - other.x) * other.z, behind = (side + float(ahead) - other.x) * other.z;
-        float back = (across ? before >= s.leave : before > s.leave) ? 1.0 : 0.0;
-        float on = (across ? behind < s.leave : behind <= s.leave) ? 1.0 : 0.0;
+        float back = (across ? before >= p.leave : before > p.leave) ? 1.0 : 0.0;
+        float on = (across ? behind < p.leave : behind <= p.leave) ? 1.0 : 0.0;
         int along = int(side) + int(on - back) * (2 * ahead - 1);
         ivec2 corner = tile << s.level;
         ivec2 next = clamp(ivec2(along), corner, corner + (1 << s.level) - 1);
-        ivec2 beyond = ivec2(bounds) - 1 + s.positive;
+        ivec2 beyond = ((tile + s.positive) << s.level) - 1 + s.positive;
         next = across ? ivec2(beyond.x, next.y) : ivec2(next.x, beyond.y);
         // Up only out of the tile above: the way down was there for a reason.
         bool leavesAbove = (next >> (s.level + 1)) != (s.cell >> (s.level + 1));
         int up = leavesAbove ? min(s.level + 1, u_cube.w) : s.level;
-        s.cell = s.isFree ? next : s.cell;
-        s.level = s.isFree ? up : s.level - 1;
+        s.cell = isFree ? next : s.cell;
+        s.level = isFree ? up : s.level - 1;
     }
 }
 
@@ -159,7 +167,7 @@ const uint ENTERING = 0u, LEAVING = 1u, ANY = 2u;
 
 // The column's surface of a kind whose depth is nearest to where the ray enters the cell, from `window` before
 // that to `window` beyond the cell. -1: none.
-int nearestSurface(Search s, ivec2 texel, float window, uint kind)
+int nearestSurface(Search s, Passage p, ivec2 texel, float window, uint kind)
 {
     int groups = (u_cube.y + 3) / 4;
     float nearest = 1e9;
@@ -167,11 +175,11 @@ int nearestSurface(Search s, ivec2 texel, float window, uint kind)
     for (int group = 0; group < groups; ++group) {
         uvec4 surfaces = texelFetch(u_cubeSurfaces, ivec3(texel, s.axis * groups + group), 0);
         vec4 depths = vec4(surfaces >> 1u);
-        vec4 along = (s.ray.mirrored ? VT_CUBE_DEPTH - depths : depths) - s.low;
+        vec4 along = (s.ray.mirrored ? VT_CUBE_DEPTH - depths : depths) - p.low;
         bvec4 isKind = equal(surfaces & 1u, uvec4(kind));
         for (int i = 0; i < 4; ++i) {
             bool candidate = (isKind[i] || kind == ANY) && surfaces[i] != VT_CUBE_NONE;
-            bool better = candidate && along[i] > -window && along[i] < s.high - s.low + window && abs(along[i]) < nearest;
+            bool better = candidate && along[i] > -window && along[i] < p.high - p.low + window && abs(along[i]) < nearest;
             nearest = better ? abs(along[i]) : nearest;
             best = better ? 4 * group + i : best;
         }
@@ -182,25 +190,29 @@ int nearestSurface(Search s, ivec2 texel, float window, uint kind)
 // Does a triangle near the cell lie in the ray's way? attempt 0: one of the column nearest to the ray, of the
 // kind that the ray looks for; 1: one of the nearest column that has any; 2 to 5: of any kind in the cell's
 // four columns.
-bool tryCell(Search s, vec3 origin, vec3 direction, bool inside, int attempt, out TriangleHit hit, out bool isEmpty)
+bool tryCell(Search s, Passage p, vec3 direction, bool inside, int attempt, inout SurfaceHit hit, out bool isEmpty)
 {
     float cellDepth = VT_CUBE_DEPTH / float(u_cube.x);
     bool wide = attempt > 1;
-    vec2 middle = s.ray.origin + 0.5 * (s.enter + min(s.leave, s.ray.end)) * s.ray.direction;
+    vec2 middle = s.ray.origin + 0.5 * (p.enter + min(p.leave, s.ray.end)) * s.ray.direction;
     int column = int(texelFetch(u_cubeColumns, ivec3(s.cell, s.axis), 0).r);
     ivec2 texel = attempt == 0 ? ivec2(floor(middle + 0.5)) : s.cell + ivec2(column & 3, column >> 2) - 1;
     texel = wide ? s.cell + ivec2(attempt & 1, (attempt >> 1) - 1) : texel;
     uint kind = wide ? ANY : inside != s.ray.mirrored ? LEAVING : ENTERING;
-    int surface = nearestSurface(s, texel, wide ? 1e9 : WINDOW * cellDepth, kind);
+    int surface = nearestSurface(s, p, texel, wide ? 1e9 : WINDOW * cellDepth, kind);
     isEmpty = surface < 0;
     if (isEmpty) {
         return false;
     }
     int groups = (u_cube.y + 3) / 4;
     uint triangle = texelFetch(u_cubeTriangles, ivec3(texel, s.axis * groups + surface / 4), 0)[surface % 4];
-    float farthest = min(s.leave, s.ray.end) + REACH * cellDepth / s.ray.slopeZ;
+    triangle = walkToLine(triangle, hit.position, direction);
+    if (triangle == VT_NO_TRIANGLE) {
+        return false;
+    }
+    float farthest = min(p.leave, s.ray.end) + REACH * cellDepth / s.ray.slopeZ;
     // From the parameter back to the world; where it has no end there, neither has the walk.
     float stretch = 1.0 - s.ray.perspective * farthest;
     farthest = stretch > 0.0 ? farthest / stretch : 1e30;
-    return walkToHit(triangle, origin, direction, inside, 1e-5 * u_cubeExtent.w, farthest, hit);
+    return meetsTriangle(triangle, direction, inside, 1e-5 * u_cubeExtent.w, farthest, hit);
 }
