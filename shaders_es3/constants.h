@@ -34,3 +34,11 @@
 #define VT_MAX_CUBE_LEVELS 10
 #define VT_CUBE_DEPTH 32766.0
 #define VT_CUBE_NONE 65535u
+
+// The hierarchy of technique `bvh` (src/scene/bvh_records.h): steps along a side of the object's box, nodes that
+// may wait on the way down, bit from which a leaf counts its triangles; nodes and triangles a row of texels.
+#define VT_BVH_STEPS 65535.0
+#define VT_BVH_STACK 32
+#define VT_BVH_COUNT_SHIFT 28
+#define VT_BVH_NODES_A_ROW 1024
+#define VT_BVH_TRIANGLES_A_ROW 512

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "gl/bvh_buffer.h"
 #include "gl/uniforms.h"
 #include "passes/accumulate.h"
 #include "passes/cube.h"
@@ -34,7 +35,8 @@ struct vtRenderer {
     vtMeshBuffer mesh;
     vtVec3 boundsMin, boundsMax;
     vtCubeFrame cubeFrame;
-    bool cubeDrawn; // of this mesh
+    bool cubeDrawn;  // of this mesh
+    vtBvhBuffer bvh; // of this mesh, once `bvh` has been drawn
     vtEnvironmentKind environment;
     // What a frame has to agree with to go on with the samples of the one before.
     vtFrameUniforms uniforms; // of the pixel's centre
@@ -109,6 +111,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtPresentPass_Destroy(&renderer->present, gl);
     vtAccumulatePass_Destroy(&renderer->accumulate, gl);
     vtMeshBuffer_Destroy(&renderer->mesh, gl);
+    vtBvhBuffer_Destroy(&renderer->bvh, gl);
     vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
     vtTexture_Destroy(&renderer->image, gl);
     gl->DeleteBuffers(1, &renderer->uniformBuffer);
@@ -130,6 +133,7 @@ vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* e
     renderer->boundsMax = mesh->boundsMax;
     renderer->cubeFrame = vtFitCube(mesh);
     renderer->cubeDrawn = false;
+    vtBvhBuffer_Destroy(&renderer->bvh, &renderer->gl);
     return vt_ok;
 }
 
@@ -248,6 +252,12 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
                                    &changed, error);
         renderer->cubeDrawn = renderer->cubeDrawn && !changed && !fromEye;
     }
+#ifdef VT_WITH_BVH
+    if (result == vt_ok && row->bvh && renderer->bvh.nodes.name == 0) {
+        result = vtBvhBuffer_Create(&renderer->bvh, gl, &renderer->mesh, renderer->boundsMin,
+                                    renderer->boundsMax, error);
+    }
+#endif
     if (result == vt_ok && drawsFarthest(frame)) {
         result = vtPeelPass_PrepareFarthest(&renderer->peel, gl, error);
     }
@@ -358,6 +368,10 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
     }
     if (layersToo && row->merge) {
         vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
+    }
+    if (row->bvh) { // VT_BVH_SAMPLERS in technique.c
+        vtTexture_Bind(&renderer->bvh.nodes, gl, 10);
+        vtTexture_Bind(&renderer->bvh.triangles, gl, 11);
     }
     vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
                        &(vtRefractInputs){.surfaceDepth = &renderer->surface.depth,
@@ -547,6 +561,7 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
         .version = (const char*)gl->GetString(GL_VERSION),
         .textureBytes = vtSurfacePass_Bytes(&renderer->surface) + vtPeelPass_Bytes(&renderer->peel) +
                         vtTexture_Bytes(&renderer->merge.depths) + vtCubePass_Bytes(&renderer->cube) +
+                        vtTexture_Bytes(&renderer->bvh.nodes) + vtTexture_Bytes(&renderer->bvh.triangles) +
                         vtTexture_Bytes(&renderer->refract.paths) +
                         vtTexture_Bytes(&renderer->refract.light) +
                         vtTexture_Bytes(&renderer->present.environment) +

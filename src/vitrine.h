@@ -22,6 +22,10 @@
 
 #include "../shaders_es3/constants.h" // VT_MAX_LAYERS and the other limits, shared with the shaders
 
+#ifndef __EMSCRIPTEN__
+#define VT_WITH_BVH ///< technique `bvh` and the counting of texture reads, for measurements
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -190,6 +194,9 @@ typedef enum vtTechnique {
     vt_techniqueOliveira,
     vt_techniqueLayered,
     vt_techniqueExact,
+#ifdef VT_WITH_BVH // a yardstick, kept out of web pages
+    vt_techniqueBvh,
+#endif
     vt_techniqueCount,
 } vtTechnique;
 
