@@ -15,6 +15,9 @@
 #define VT_PATH_LOST 2
 // The second byte of that channel counts events; this bit is set where total internal reflection took part.
 #define VT_PATH_TIR 65536
+// From this bit on texture reads are counted where the frame asks for it, up to VT_MAX_READS.
+#define VT_PATH_READS_SHIFT 17
+#define VT_MAX_READS 32767
 
 // What the present pass shows; the values of vtOutput.
 #define VT_OUTPUT_PICTURE 0

@@ -7,6 +7,7 @@
 /// Follows every pixel's path through the glass with one technique of the ladder.
 typedef struct vtRefractPass {
     GLuint programs[vt_techniqueCount]; ///< compiled when first used
+    GLuint counters[vt_techniqueCount]; ///< the same, counting texture reads
     GLuint framebuffer;
     vtTexture light; ///< RG32UI: four halves, transmittance and light added on the way (red, green, blue)
     vtTexture paths; ///< RGBA32UI: the bits of the last direction (three floats), state (VT_PATH_...)
@@ -24,9 +25,11 @@ typedef struct vtRefractInputs {
     const vtTexture* cubeTriangles;
     const vtTexture* intervals;
     const vtTexture* triangles;
+    bool countReads;
 } vtRefractInputs;
 
-vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error);
+vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, bool countReads,
+                               vtError* error);
 vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height, vtError* error);
 void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
                         const vtRefractInputs* inputs);
