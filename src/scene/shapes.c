@@ -87,11 +87,17 @@ vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error)
     return row != NULL ? createShape(row, 1.0f, mesh, error) : failUnknown(name, error);
 }
 
+bool vtHasFineShape(const char* name)
+{
+    const ShapeRow* row = findShape(name);
+    return row != NULL && row->triangles > 0;
+}
+
 vtResult vtCreateFineShape(const char* name, uint32_t triangles, vtMesh* mesh, vtError* error)
 {
     *mesh = (vtMesh){0};
     const ShapeRow* row = findShape(name);
-    if (row == NULL || row->triangles == 0) {
+    if (!vtHasFineShape(name)) {
         return vtFail(error, vt_errorArgument,
                       "'%.100s' cannot be built of another number of triangles; the knot and the torus can",
                       name);
