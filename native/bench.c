@@ -25,31 +25,36 @@ const char* vtBenchStage(int index)
     return stageNames[index];
 }
 
-double vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, int row)
+vtTiming vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, int row)
 {
     for (int i = 0; i < bench->rowCount; ++i) {
         if (measured->rows[i].frame.technique == vt_techniqueLayered) {
-            return measured->rows[row].time.wall / measured->rows[i].time.wall;
+            const vtTiming *time = &measured->rows[row].time, *layered = &measured->rows[i].time;
+            return (vtTiming){time->wall / layered->wall, time->processor / layered->processor};
         }
     }
-    return 0.0;
+    return (vtTiming){0.0, 0.0};
 }
 
 /// A clock that is read between the stages of a frame.
 typedef struct StageClock {
     void (*finish)(void);
-    double last, build;
-    double stages[vt_benchStages];
+    vtTiming last;
+    double build;
+    vtTiming stages[vt_benchStages];
 } StageClock;
 
 static void stageDone(const char* stage, void* userData)
 {
     StageClock* clock = userData;
     clock->finish();
-    const double now = vtNow();
-    clock->build += strcmp(stage, "bvh") == 0 || strcmp(stage, "cube") == 0 ? now - clock->last : 0.0;
+    const vtTiming now = {vtNow(), vtProcessorTime()}, last = clock->last;
+    clock->build += strcmp(stage, "bvh") == 0 || strcmp(stage, "cube") == 0 ? now.wall - last.wall : 0.0;
     for (int i = 0; i < vt_benchStages; ++i) {
-        clock->stages[i] += strcmp(stage, stageNames[i]) == 0 ? now - clock->last : 0.0;
+        if (strcmp(stage, stageNames[i]) == 0) {
+            clock->stages[i].wall += now.wall - last.wall;
+            clock->stages[i].processor += now.processor - last.processor;
+        }
     }
     clock->last = now;
 }
@@ -58,7 +63,7 @@ static StageClock startClock(const vtSession* session)
 {
     StageClock clock = {.finish = session->context.getProcAddress("glFinish")};
     clock.finish();
-    clock.last = vtNow();
+    clock.last = (vtTiming){vtNow(), vtProcessorTime()};
     return clock;
 }
 
@@ -87,7 +92,7 @@ static vtResult probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row
         clock = startClock(session);
         result = vtRenderer_SetMesh(renderer, &session->input.mesh, error);
         clock.finish();
-        measured->upload = vtNow() - clock.last;
+        measured->upload = vtNow() - clock.last.wall;
         if (result == vt_ok) {
             result = drawStages(session, renderer, &row->frame, &clock, error);
         }
@@ -104,17 +109,18 @@ static vtResult probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row
 
 static vtResult timeStages(vtSession* session, vtBenchRow* row, int rounds, vtError* error)
 {
-    double samples[vt_benchStages][vt_maxTimingRounds];
+    double wall[vt_benchStages][vt_maxTimingRounds], processor[vt_benchStages][vt_maxTimingRounds];
     vtResult result = vt_ok;
     for (int round = 0; round < rounds && result == vt_ok; ++round) {
         StageClock clock;
         result = drawStages(session, session->renderer, &row->frame, &clock, error);
         for (int i = 0; i < vt_benchStages; ++i) {
-            samples[i][round] = clock.stages[i];
+            wall[i][round] = clock.stages[i].wall;
+            processor[i][round] = clock.stages[i].processor;
         }
     }
     for (int i = 0; i < vt_benchStages && result == vt_ok; ++i) {
-        row->stages[i] = vtMedian(samples[i], rounds);
+        row->stages[i] = (vtTiming){vtMedian(wall[i], rounds), vtMedian(processor[i], rounds)};
     }
     return result;
 }

@@ -19,10 +19,10 @@ typedef struct vtBenchRow {
     const char* id;
     char label[64]; ///< id and the settings that it depends on
     vtTiming time;
-    double stages[vt_benchStages]; ///< milliseconds, medians, GL finished after each; 0 where there is none
-    double build;                  ///< milliseconds, once a mesh, shaders compiled: cube or hierarchy
-    size_t textureBytes;           ///< all that the renderer holds for it but the mesh
-    vtDirectionError error;        ///< where the true path has at most 4 events
+    vtTiming stages[vt_benchStages]; ///< medians, GL finished after each; 0 where there is none
+    double build;                    ///< milliseconds, once a mesh, shaders compiled: cube or hierarchy
+    size_t textureBytes;             ///< all that the renderer holds for it but the mesh
+    vtDirectionError error;          ///< where the true path has at most 4 events
     double readsAPath, readsAnEvent;
 } vtBenchRow;
 
@@ -53,8 +53,8 @@ typedef struct vtBench {
     vtBenchCase cases[vt_maxBenchCases];
 } vtBench;
 
-/// Time of the row over that of the technique `layered` in the same case; 0 where that is not measured.
-double vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, int row);
+/// Times of the row over those of the technique `layered` in the same case; 0 where that is not measured.
+vtTiming vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, int row);
 
 void vtBench_WriteTable(const vtBench* bench, FILE* out);
 void vtBench_WriteJson(const vtBench* bench, FILE* out);

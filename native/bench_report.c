@@ -66,11 +66,11 @@ static void writeRow(const vtBench* bench, const vtBenchCase* measured, int inde
 {
     const vtBenchRow* row = &measured->rows[index];
     const vtTiming *time = &row->time, *traced = &measured->traced;
-    const double toLayered = vtBench_ToLayered(bench, measured, index);
+    const vtTiming toLayered = vtBench_ToLayered(bench, measured, index);
     writeVariable(bench, measured, out);
     fprintf(out, "| %s | %.1f ms | %.1f ms | %.2f | %.2f | ", row->label, time->wall, time->processor,
             time->wall / traced->wall, time->processor / traced->processor);
-    fprintf(out, toLayered > 0.0 ? "%.2f | " : "- | ", toLayered);
+    fprintf(out, toLayered.wall > 0.0 ? "%.2f | %.2f | " : "- | - | ", toLayered.wall, toLayered.processor);
     fprintf(out, "%.2f %% | %.2f %% | %.2f %% | ", 100.0 * row->error.within1, 100.0 * row->error.within5,
             100.0 * row->error.lost);
     fprintf(out, "%.1f | %.1f | %.1f MB | ", row->readsAPath, row->readsAnEvent,
@@ -80,7 +80,7 @@ static void writeRow(const vtBench* bench, const vtBenchCase* measured, int inde
 
 static void writeStages(const vtBench* bench, FILE* out)
 {
-    fprintf(out, "\n| technique |");
+    fprintf(out, "\nStages, GL finished after each, with CPU time in brackets:\n\n| technique |");
     for (int i = 0; i < vt_benchStages; ++i) {
         fprintf(out, " %s |", vtBenchStage(i));
     }
@@ -93,7 +93,8 @@ static void writeStages(const vtBench* bench, FILE* out)
         const vtBenchRow* row = &bench->cases[0].rows[i];
         fprintf(out, "| %s |", row->label);
         for (int stage = 0; stage < vt_benchStages; ++stage) {
-            fprintf(out, row->stages[stage] > 0.0 ? " %.1f ms |" : " - |", row->stages[stage]);
+            const vtTiming* time = &row->stages[stage];
+            fprintf(out, time->wall > 0.0 ? " %.1f (%.1f) ms |" : " - |", time->wall, time->processor);
         }
         fprintf(out, "\n");
     }
@@ -105,9 +106,10 @@ void vtBench_WriteTable(const vtBench* bench, FILE* out)
     if (bench->sweep != NULL) {
         fprintf(out, "| %s ", bench->sweep);
     }
-    fprintf(out, "| technique | frame | CPU | frame / Embree | CPU / Embree | frame / layered | within 1° | "
+    fprintf(out, "| technique | frame | CPU | frame / Embree | CPU / Embree | frame / layered | CPU / "
+                 "layered | within 1° | "
                  "within 5° | lost | reads a path | reads an event | textures | build |\n");
-    for (int i = 0; i < (bench->sweep != NULL ? 14 : 13); ++i) {
+    for (int i = 0; i < (bench->sweep != NULL ? 15 : 14); ++i) {
         fprintf(out, "|---");
     }
     fprintf(out, "|\n");
@@ -117,7 +119,7 @@ void vtBench_WriteTable(const vtBench* bench, FILE* out)
             writeRow(bench, measured, row, out);
         }
         writeVariable(bench, measured, out);
-        fprintf(out, "| Embree | %.1f ms | %.1f ms | 1 | 1 | - | - | - | - | - | - | - | %.0f ms |\n",
+        fprintf(out, "| Embree | %.1f ms | %.1f ms | 1 | 1 | - | - | - | - | - | - | - | - | %.0f ms |\n",
                 measured->traced.wall, measured->traced.processor, measured->tracerBuild);
     }
     if (bench->sweep == NULL) {
@@ -143,22 +145,23 @@ static void writeText(const char* name, const char* text, FILE* out)
 static void writeJsonRow(const vtBench* bench, const vtBenchCase* measured, int index, FILE* out)
 {
     const vtBenchRow* row = &measured->rows[index];
-    const double toLayered = vtBench_ToLayered(bench, measured, index);
+    const vtTiming toLayered = vtBench_ToLayered(bench, measured, index);
     fprintf(out, "{");
     writeText("id", row->id, out);
     writeText("label", row->label, out);
     fprintf(out, "\"wall\":%.4f,\"cpu\":%.4f,\"wallToReference\":%.5f,\"cpuToReference\":%.5f,",
             row->time.wall, row->time.processor, row->time.wall / measured->traced.wall,
             row->time.processor / measured->traced.processor);
-    if (toLayered > 0.0) {
-        fprintf(out, "\"wallToLayered\":%.5f,", toLayered);
+    if (toLayered.wall > 0.0) {
+        fprintf(out, "\"wallToLayered\":%.5f,\"cpuToLayered\":%.5f,", toLayered.wall, toLayered.processor);
     }
     fprintf(out, "\"pixels\":%zu,\"within1\":%.6f,\"within5\":%.6f,\"lost\":%.6f,", row->error.pixels,
             row->error.within1, row->error.within5, row->error.lost);
     fprintf(out, "\"readsAPath\":%.3f,\"readsAnEvent\":%.3f,\"textureBytes\":%zu,\"build\":%.3f,\"stages\":{",
             row->readsAPath, row->readsAnEvent, row->textureBytes, row->build);
     for (int i = 0; i < vt_benchStages; ++i) {
-        fprintf(out, "%s\"%s\":%.4f", i > 0 ? "," : "", vtBenchStage(i), row->stages[i]);
+        fprintf(out, "%s\"%s\":{\"wall\":%.4f,\"cpu\":%.4f}", i > 0 ? "," : "", vtBenchStage(i),
+                row->stages[i].wall, row->stages[i].processor);
     }
     fprintf(out, "}}");
 }

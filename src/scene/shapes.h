@@ -16,6 +16,7 @@ typedef struct vtShapeData {
 /// The built-in `knot` or `torus` of about so many triangles, 200 to 4000000, for measurements. Fails with
 /// vt_errorArgument for another name.
 vtResult vtCreateFineShape(const char* name, uint32_t triangles, vtMesh* mesh, vtError* error);
+/// Whether it can be built so.
 bool vtHasFineShape(const char* name);
 
 /// Makes room in an empty shape; false where memory is short, and then the shape stays safe to free.
