@@ -338,7 +338,7 @@ typedef struct vtRendererInfo {
     const char* vendor;
     const char* device;
     const char* version;
-    size_t textureBytes;         ///< GPU memory of layers, targets and environment
+    size_t textureBytes;         ///< GPU memory of layers, hierarchy, targets and environment
     size_t meshBytes;            ///< GPU memory of the mesh
     int layerWidth, layerHeight; ///< of the last frame, texels
 } vtRendererInfo;

@@ -9,7 +9,7 @@ typedef struct vtBvhBuffer {
 } vtBvhBuffer;
 
 /// Builds it of the triangle records that the mesh buffer holds, which are read back: so nothing of the mesh
-/// has to be kept for a technique that few use. About 2 us a triangle.
+/// has to be kept for a technique that few use. About 3 us a triangle.
 vtResult vtBvhBuffer_Create(vtBvhBuffer* buffer, const vtGL* gl, const vtMeshBuffer* mesh, vtVec3 boundsMin,
                             vtVec3 boundsMax, vtError* error);
 void vtBvhBuffer_Destroy(vtBvhBuffer* buffer, const vtGL* gl);
