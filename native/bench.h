@@ -5,6 +5,7 @@
 
 #include "metrics.h"
 #include "options.h"
+#include "session.h"
 #include "timing.h"
 
 enum { vt_benchStages = 6, vt_maxBenchRows = 12, vt_maxBenchCases = 8 };
@@ -55,6 +56,10 @@ typedef struct vtBench {
 
 /// Times of the row over those of the technique `layered` in the same case; 0 where that is not measured.
 vtTiming vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, int row);
+
+/// Measures the session's scene as the case whose rows hold their frames; the reference takes its turns.
+vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtBench* bench,
+                         vtBenchCase* measured, vtError* error);
 
 void vtBench_WriteTable(const vtBench* bench, FILE* out);
 void vtBench_WriteJson(const vtBench* bench, FILE* out);
