@@ -11,6 +11,9 @@ vtResult vtRunView(const vtOptions* options, vtError* error);
 /// `vitrine ladder`: every technique from one view beside the reference, as a contact sheet and a table.
 vtResult vtRunLadder(const vtOptions* options, vtError* error);
 
+/// `vitrine bench`: time, memory and accuracy of techniques beside the reference, interleaved.
+vtResult vtRunBench(const vtOptions* options, vtError* error);
+
 /// `vitrine thesis`: the comparisons of Wang & Chi 2014, chapters 3 and 4, as a page.
 vtResult vtRunThesis(const vtOptions* options, vtError* error);
 

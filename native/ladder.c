@@ -102,14 +102,15 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
         result = vtCreateReference(&session->input.mesh, &reference, error);
     }
     if (result == vt_ok) {
-        double times[rungCount];
+        vtTiming times[rungCount], traced;
         for (int i = 0; i < rungCount; ++i) {
             ladder->frames[i].samples = 1; // times are those of one sample, as the reference's is
         }
-        result = vtTimeFrames(session->renderer, ladder->frames, rungCount, reference, times, &ladder->traced,
-                              error);
+        const vtTimingDef def = {session->renderer, ladder->frames, rungCount, reference, 0, 0, 0.0};
+        result = vtTimeFrames(&def, times, &traced, NULL, error);
+        ladder->traced = traced.wall;
         for (int i = 0; i < rungCount && result == vt_ok; ++i) {
-            ladder->rungs[i].milliseconds = times[i];
+            ladder->rungs[i].milliseconds = times[i].wall;
         }
     }
     vtDestroyReference(reference);

@@ -8,6 +8,7 @@
 #include "base/math.h"
 #include "files.h"
 #include "reference.h"
+#include "scene/shapes.h"
 #include "trace.h"
 
 static vtResult loadModelFile(const char* path, vtModel* model, vtError* error)
@@ -99,8 +100,10 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
                       "no model given; name a .glb or .gltf file or a built-in shape (see 'vitrine list')");
     }
     vtModel model = {0};
-    vtResult result = isShape(options->model) ? vtCreateShape(options->model, &model.mesh, error)
-                                              : loadModelFile(options->model, &model, error);
+    vtResult result = options->triangles > 0 ? vtCreateFineShape(options->model, (uint32_t)options->triangles,
+                                                                 &model.mesh, error)
+                      : isShape(options->model) ? vtCreateShape(options->model, &model.mesh, error)
+                                                : loadModelFile(options->model, &model, error);
     if (result == vt_ok) {
         result = loadEnvironment(options->environment, &input->environment, error);
     }

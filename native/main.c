@@ -10,6 +10,7 @@ static void printUsage(void)
         "\n"
         "  vitrine render MODEL -o OUT.png [options]   draw a picture, no screen needed\n"
         "  vitrine ladder MODEL [options]              every technique beside the reference, with its error\n"
+        "  vitrine bench MODEL [options]               time, memory and accuracy beside the reference\n"
         "  vitrine compare A B [options]               measure a picture or directions against the truth\n"
         "  vitrine thesis -o FOLDER [--models FOLDER]  the comparisons of Wang & Chi 2014 as a page\n"
         "  vitrine view MODEL [options]                turn the object in a window\n"
@@ -55,9 +56,8 @@ static const struct {
     vtCommand command;
     vtRunFcn* run;
 } commands[] = {
-    {"render", vt_commandRender, vtRunRender},
-    {"view", vt_commandView, vtRunView},
-    {"ladder", vt_commandLadder, vtRunLadder},
+    {"render", vt_commandRender, vtRunRender}, {"view", vt_commandView, vtRunView},
+    {"ladder", vt_commandLadder, vtRunLadder}, {"bench", vt_commandBench, vtRunBench},
     {"thesis", vt_commandThesis, vtRunThesis},
 };
 

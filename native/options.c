@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "timing.h"
 
 typedef enum Kind { kindFlag, kindText, kindInteger, kindNumber, kindVector, kindSize } Kind;
 
@@ -25,13 +26,16 @@ typedef struct Option {
 #define VIEW (1u << vt_commandView)
 #define LADDER (1u << vt_commandLadder)
 #define THESIS (1u << vt_commandThesis)
-#define SCENE (RENDER | VIEW | LADDER)
+#define BENCH (1u << vt_commandBench)
+#define SCENE (RENDER | VIEW | LADDER | BENCH)
 #define AT(field) offsetof(vtOptions, field)
 
 static const Option table[] = {
     {"output", 'o', kindText, AT(output), 0, 0, "FILE", "the picture, PNG; - is standard output",
      RENDER | LADDER},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID", "see 'vitrine list' (exact)", RENDER | VIEW},
+    {"technique", 't', kindText, AT(technique), 0, 0, "ID,ID,...",
+     "see 'vitrine list' (exact,layered,bvh,single)", BENCH},
     {"preset", 0, kindText, AT(preset), 0, 0, "low|medium|high", "settings that are not given (medium)",
      SCENE},
     {"layers", 0, kindInteger, AT(layers), 1, VT_MAX_LAYERS, "N",
@@ -73,7 +77,7 @@ static const Option table[] = {
     {"analysis", 0, kindFlag, AT(analysis), 0, 0, NULL,
      "path colours: red 2 refractions, blue more, green total reflection, grey lost", RENDER | VIEW},
     {"rendering-backend", 0, kindText, AT(backend), 0, 0, "auto|osmesa|egl", "headless GL (auto)",
-     RENDER | LADDER | THESIS},
+     RENDER | LADDER | THESIS | BENCH},
     {"fresnel", 0, kindFlag, AT(fresnel), 0, 0, NULL,
      "reference: with Fresnel reflection, by chance for each sample", RENDER},
     {"events", 0, kindText, AT(events), 0, 0, "FILE",
@@ -87,7 +91,19 @@ static const Option table[] = {
     {"reference-threshold", 0, kindNumber, AT(referenceThreshold), 0, 1, "T",
      "by more than this mean FLIP (0.05)", RENDER},
     {"table", 0, kindText, AT(table), 0, 0, "FILE", "the figures as a Markdown table; - is standard output",
-     LADDER},
+     LADDER | BENCH},
+    {"json", 0, kindFlag, AT(json), 0, 0, NULL, "one JSON object on standard output instead of the table",
+     BENCH},
+    {"sweep", 0, kindText, AT(sweep), 0, 0, "triangles|resolution",
+     "measure again and again: knot or torus of 1,000 to 1,000,000 triangles, or pictures of 256 to 2048",
+     BENCH},
+    {"plot", 0, kindText, AT(plot), 0, 0, "FILE", "the sweep's times as a picture, SVG", BENCH},
+    {"triangles", 0, kindInteger, AT(triangles), 200, 4e6, "N",
+     "about so many, of the knot or the torus (theirs)", BENCH},
+    {"rounds", 0, kindInteger, AT(rounds), 1, vt_maxTimingRounds, "N",
+     "frames whose median is taken (9; 3 where they take more than 40 s)", BENCH},
+    {"threads", 0, kindInteger, AT(threads), 1, 32, "N", "of llvmpipe and of the reference (all processors)",
+     BENCH},
     {"output", 'o', kindText, AT(output), 0, 0, "FOLDER", "where the page and its pictures go", THESIS},
     {"models", 0, kindText, AT(models), 0, 0, "FOLDER",
      "holds the thesis's models as .glb; absent ones are left out", THESIS},
@@ -170,7 +186,8 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     vtFrame frame = vtDefaultFrame();
     *options = (vtOptions){
         .environment = "studio",
-        .technique = vtTechnique_Info(frame.technique)->id,
+        .technique =
+            command == vt_commandBench ? "exact,layered,bvh,single" : vtTechnique_Info(frame.technique)->id,
         .backend = "auto",
         .size = {frame.width, frame.height},
         .topLevel = frame.topLevel,

@@ -21,6 +21,8 @@ typedef struct vtOptions {
     const char* backSurface;
     const char* layerSource;
     const char* preset;
+    const char* sweep;
+    const char* plot;
     float ior, fov, exposure;
     float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
     vtVec3 camera, target;
@@ -29,12 +31,21 @@ typedef struct vtOptions {
     int layers, steps, refine, maxEvents, layerSize, cubeSize, topLevel;
     int samples; ///< a pixel
     float referenceThreshold;
+    int triangles; ///< of the knot or the torus; 0: as built in
+    int rounds, threads;
     int frames; ///< view: close after so many, 0: never
+    bool json;
     bool fresnel, analysis, verbose, help;
     bool innerDistances; ///< set by commands that draw `wyman` whatever the technique option says
 } vtOptions;
 
-typedef enum vtCommand { vt_commandRender, vt_commandView, vt_commandLadder, vt_commandThesis } vtCommand;
+typedef enum vtCommand {
+    vt_commandRender,
+    vt_commandView,
+    vt_commandLadder,
+    vt_commandThesis,
+    vt_commandBench
+} vtCommand;
 
 /// Parses the words after the command. Fails with a sentence on an unknown option, a missing or malformed
 /// value or one out of range.

@@ -190,18 +190,19 @@ static vtResult addTimes(Page* page, const Model* model, vtError* error)
 {
     vtReference* reference;
     vtResult result = vtCreateReference(&page->session.input.mesh, &reference, error);
-    double drawn[2], traced[2];
+    vtTiming drawn[2], traced[2];
     for (int i = 0; i < 2 && result == vt_ok; ++i) {
         vtFrame frame = frameAt(page, i == 0 ? 2.0f : 1.0f);
-        result = vtTimeFrames(page->session.renderer, &frame, 1, reference, &drawn[i], &traced[i], error);
+        const vtTimingDef def = {page->session.renderer, &frame, 1, reference, 0, 0, 0.0};
+        result = vtTimeFrames(&def, &drawn[i], &traced[i], NULL, error);
     }
     vtDestroyReference(reference);
     if (result == vt_ok) {
         fprintf(page->html, "<tr><th>%s</th><td>%u</td>", model->title,
                 page->session.input.mesh.indexCount / 3);
         for (int i = 0; i < 2; ++i) {
-            fprintf(page->html, "<td>%.1f ms</td><td>%.1f ms</td><td>%.2f</td>", drawn[i], traced[i],
-                    drawn[i] / traced[i]);
+            fprintf(page->html, "<td>%.1f ms</td><td>%.1f ms</td><td>%.2f</td>", drawn[i].wall,
+                    traced[i].wall, drawn[i].wall / traced[i].wall);
         }
         fprintf(page->html, "</tr>\n");
     }

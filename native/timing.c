@@ -13,6 +13,13 @@ double vtNow(void)
     return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
 }
 
+double vtProcessorTime(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
+}
+
 void vtShowProgress(const char* doing, float share, double start)
 {
     double spent = 1e-3 * (vtNow() - start);
@@ -37,48 +44,74 @@ static int compareDoubles(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-static double median(double* values)
+double vtMedian(double* values, int count)
 {
-    qsort(values, vt_timingRounds, sizeof *values, compareDoubles);
-    return values[vt_timingRounds / 2];
+    qsort(values, (size_t)count, sizeof *values, compareDoubles);
+    return values[count / 2];
 }
 
-static vtResult timeReference(const vtReference* reference, const vtFrame* frame, double* milliseconds,
-                              vtError* error)
+typedef struct Samples {
+    double wall[vt_maxTimingRounds], processor[vt_maxTimingRounds];
+} Samples;
+
+/// Draws frame `index`, or traces where it is def->count, as round `round`; below 0: to warm up.
+static vtResult timeOne(const vtTimingDef* def, int index, int round, Samples* samples, vtError* error)
 {
-    vtReferenceImage image;
-    double start = vtNow();
-    vtResult result = vtReference_Trace(reference, &(vtReferenceDef){.frame = frame}, &image, error);
-    *milliseconds = vtNow() - start;
-    vtDestroyReferenceImage(&image);
+    vtResult result;
+    const double wall = vtNow(), processor = vtProcessorTime();
+    if (index < def->count) {
+        result = vtRenderer_DrawImage(def->renderer, &def->frames[index], NULL, error);
+    } else {
+        vtReferenceImage image;
+        vtReferenceDef reference = {.frame = &def->frames[0], .threads = def->threads};
+        result = vtReference_Trace(def->reference, &reference, &image, error);
+        vtDestroyReferenceImage(&image);
+    }
+    samples->wall[round < 0 ? 0 : round] = vtNow() - wall;
+    samples->processor[round < 0 ? 0 : round] = vtProcessorTime() - processor;
     return result;
 }
 
-vtResult vtTimeFrames(vtRenderer* renderer, const vtFrame* frames, int count, const vtReference* reference,
-                      double* milliseconds, double* traced, vtError* error)
+static vtTiming medians(Samples* samples, int rounds)
 {
-    enum { maxFrames = 64 };
-    static const int warmUp = 1;
-    double times[maxFrames + 1][vt_timingRounds];
-    if (count > maxFrames) {
-        return vtFail(error, vt_errorArgument, "timing: %d frames; at most %d", count, maxFrames);
+    return (vtTiming){vtMedian(samples->wall, rounds), vtMedian(samples->processor, rounds)};
+}
+
+vtResult vtTimeFrames(const vtTimingDef* def, vtTiming* timings, vtTiming* traced, int* rounds,
+                      vtError* error)
+{
+    static const int warmUp = 1, leastRounds = 3;
+    const int candidates = def->count + (def->reference != NULL);
+    const int wanted = def->rounds > 0 ? def->rounds : vt_timingRounds;
+    if (def->count > vt_maxTimedFrames) {
+        return vtFail(error, vt_errorArgument, "timing: %d frames; at most %d", def->count,
+                      vt_maxTimedFrames);
+    }
+    Samples* samples = malloc((size_t)candidates * sizeof *samples);
+    if (samples == NULL) {
+        return vtFail(error, vt_errorMemory, "timing: out of memory");
     }
     vtResult result = vt_ok;
-    for (int round = -warmUp; round < vt_timingRounds && result == vt_ok; ++round) {
-        for (int i = 0; i < count && result == vt_ok; ++i) {
-            double start = vtNow();
-            result = vtRenderer_DrawImage(renderer, &frames[i], NULL, error);
-            times[i][round < 0 ? 0 : round] = vtNow() - start;
+    const double start = vtNow();
+    int round = -warmUp;
+    for (; round < wanted && result == vt_ok; ++round) {
+        bool late = def->limit > 0.0 && vtNow() - start > 1e3 * def->limit;
+        if (late && round >= leastRounds) {
+            break;
         }
-        if (reference != NULL && result == vt_ok) {
-            result = timeReference(reference, &frames[0], &times[maxFrames][round < 0 ? 0 : round], error);
+        for (int i = 0; i < candidates && result == vt_ok; ++i) {
+            result = timeOne(def, i, round, &samples[i], error);
         }
     }
-    for (int i = 0; i < count && result == vt_ok; ++i) {
-        milliseconds[i] = median(times[i]);
+    for (int i = 0; i < def->count && result == vt_ok; ++i) {
+        timings[i] = medians(&samples[i], round);
     }
-    if (reference != NULL && result == vt_ok) {
-        *traced = median(times[maxFrames]);
+    if (def->reference != NULL && result == vt_ok) {
+        *traced = medians(&samples[def->count], round);
     }
+    if (rounds != NULL) {
+        *rounds = round;
+    }
+    free(samples);
     return result;
 }

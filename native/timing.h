@@ -4,17 +4,39 @@
 #include "reference.h"
 #include "vitrine.h"
 
-enum { vt_timingRounds = 9 };
+enum { vt_timingRounds = 9, vt_maxTimingRounds = 99, vt_maxTimedFrames = 64 };
 
 /// A monotonic clock, milliseconds.
 double vtNow(void);
+
+/// Milliseconds that the processors have spent on this program, all threads together. A busy machine disturbs
+/// it less than the clock.
+double vtProcessorTime(void);
+
+/// Milliseconds, medians.
+typedef struct vtTiming {
+    double wall, processor;
+} vtTiming;
+
+/// The median of up to vt_maxTimingRounds values, which are sorted.
+double vtMedian(double* values, int count);
 
 /// A bar on standard error for work begun at `start` (vtNow) and done to that share, 0 to 1; nothing in its
 /// first second.
 void vtShowProgress(const char* doing, float share, double start);
 
+typedef struct vtTimingDef {
+    vtRenderer* renderer;
+    const vtFrame* frames;
+    int count;                    ///< of frames, 1 to vt_maxTimedFrames
+    const vtReference* reference; ///< takes its turn with the first frame's view, directions only; NULL: not
+    int threads;                  ///< of the reference; 0: as many as there are processors
+    int rounds;                   ///< 1 to vt_maxTimingRounds; 0: vt_timingRounds
+    double limit;                 ///< seconds after which three rounds are enough; 0: none
+} vtTimingDef;
+
 /// Median time of each frame, GL finished, drawn in turns so that a busy machine slows all alike; one more
-/// drawing of each before warms it up. Where `reference` is given, the reference tracer takes its turn with
-/// the first frame's view and *traced is its median (directions only).
-vtResult vtTimeFrames(vtRenderer* renderer, const vtFrame* frames, int count, const vtReference* reference,
-                      double* milliseconds, double* traced, vtError* error);
+/// drawing of each before warms it up. Where there is a reference, *traced is its median. *rounds, where not
+/// NULL: how many there were.
+vtResult vtTimeFrames(const vtTimingDef* def, vtTiming* timings, vtTiming* traced, int* rounds,
+                      vtError* error);

@@ -15,6 +15,9 @@
 #define VT_PATH_LOST 2
 // The second byte of that channel counts events; this bit is set where total internal reflection took part.
 #define VT_PATH_TIR 65536
+// From this bit on texture reads are counted where the frame asks for it, up to VT_MAX_READS.
+#define VT_PATH_READS_SHIFT 17
+#define VT_MAX_READS 32767
 
 // What the present pass shows; the values of vtOutput.
 #define VT_OUTPUT_PICTURE 0
@@ -34,3 +37,11 @@
 #define VT_MAX_CUBE_LEVELS 10
 #define VT_CUBE_DEPTH 32766.0
 #define VT_CUBE_NONE 65535u
+
+// The hierarchy of technique `bvh` (src/scene/bvh_records.h): steps along a side of the object's box, nodes that
+// may wait on the way down, bit from which a leaf counts its triangles; nodes and triangles a row of texels.
+#define VT_BVH_STEPS 65535.0
+#define VT_BVH_STACK 32
+#define VT_BVH_COUNT_SHIFT 28
+#define VT_BVH_NODES_A_ROW 1024
+#define VT_BVH_TRIANGLES_A_ROW 512

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "gl/bvh_buffer.h"
 #include "gl/uniforms.h"
 #include "passes/accumulate.h"
 #include "passes/cube.h"
@@ -34,7 +35,8 @@ struct vtRenderer {
     vtMeshBuffer mesh;
     vtVec3 boundsMin, boundsMax;
     vtCubeFrame cubeFrame;
-    bool cubeDrawn; // of this mesh
+    bool cubeDrawn;  // of this mesh
+    vtBvhBuffer bvh; // of this mesh, once `bvh` has been drawn
     vtEnvironmentKind environment;
     // What a frame has to agree with to go on with the samples of the one before.
     vtFrameUniforms uniforms; // of the pixel's centre
@@ -109,6 +111,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtPresentPass_Destroy(&renderer->present, gl);
     vtAccumulatePass_Destroy(&renderer->accumulate, gl);
     vtMeshBuffer_Destroy(&renderer->mesh, gl);
+    vtBvhBuffer_Destroy(&renderer->bvh, gl);
     vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
     vtTexture_Destroy(&renderer->image, gl);
     gl->DeleteBuffers(1, &renderer->uniformBuffer);
@@ -130,6 +133,7 @@ vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* e
     renderer->boundsMax = mesh->boundsMax;
     renderer->cubeFrame = vtFitCube(mesh);
     renderer->cubeDrawn = false;
+    vtBvhBuffer_Destroy(&renderer->bvh, &renderer->gl);
     return vt_ok;
 }
 
@@ -225,6 +229,13 @@ static void setEyeLayers(vtFrameUniforms* uniforms, const vtFrustum* f)
     }
 }
 
+static void endStage(const vtFrame* frame, const char* stage)
+{
+    if (frame->stageDone != NULL) {
+        frame->stageDone(stage, frame->stageData);
+    }
+}
+
 static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
                               vtError* error)
 {
@@ -256,7 +267,7 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
         result = vtPeelPass_PrepareFarthest(&renderer->peel, gl, error);
     }
     if (result == vt_ok) {
-        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, error);
+        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, frame->countReads, error);
     }
     return result;
 }
@@ -341,6 +352,20 @@ static void resetState(const vtGL* gl)
     gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
+#ifdef VT_WITH_BVH
+/// The hierarchy, where the frame's technique walks one and it is not there.
+static vtResult prepareBvh(vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    vtResult result = vt_ok;
+    if (vtTechnique_Row(frame->technique)->bvh && renderer->bvh.nodes.name == 0) {
+        result = vtBvhBuffer_Create(&renderer->bvh, &renderer->gl, &renderer->mesh, renderer->boundsMin,
+                                    renderer->boundsMax, error);
+        endStage(frame, "bvh");
+    }
+    return result;
+}
+#endif
+
 /// Everything up to the paths, with the uniform block that was uploaded.
 static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
 {
@@ -348,21 +373,32 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     if (row->surface) {
         vtSurfacePass_Draw(&renderer->surface, gl, &renderer->mesh, row->innerDistances);
+        endStage(frame, "surface");
     }
     if (layersToo && drawsFarthest(frame)) {
         vtPeelPass_DrawFarthest(&renderer->peel, gl, &renderer->mesh);
+        endStage(frame, "peel");
     } else if (layersToo && row->layers != 0) {
         vtPeelPass_Draw(&renderer->peel, gl, &renderer->mesh);
+        endStage(frame, "peel");
     }
     gl->BindVertexArray(renderer->emptyVertexArray);
     const bool fromEye = frame->layerSource == vt_layersFromEye;
     if (row->cube && (fromEye ? layersToo : !renderer->cubeDrawn)) {
         vtCubePass_Draw(&renderer->cube, gl, &renderer->mesh);
         renderer->cubeDrawn = !fromEye;
+        endStage(frame, "cube");
     }
     if (layersToo && row->merge) {
         vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
+        endStage(frame, "merge");
     }
+#ifdef VT_WITH_BVH
+    if (row->bvh) { // VT_BVH_SAMPLERS in technique.c
+        vtTexture_Bind(&renderer->bvh.nodes, gl, 10);
+        vtTexture_Bind(&renderer->bvh.triangles, gl, 11);
+    }
+#endif
     vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
                        &(vtRefractInputs){.surface = &renderer->surface.attributes,
                                           .innerDistances = &renderer->surface.distances,
@@ -373,7 +409,9 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
                                           .cubeTriangles = &renderer->cube.triangles,
                                           .intervals = &renderer->cube.intervals,
                                           .triangles = &renderer->mesh.triangles,
-                                          .cubeColumns = &renderer->cube.columns});
+                                          .cubeColumns = &renderer->cube.columns,
+                                          .countReads = frame->countReads});
+    endStage(frame, "refract");
 }
 
 static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
@@ -387,6 +425,7 @@ static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
                                           .layerDepths = &renderer->peel.depths,
                                           .layerNormals = &renderer->peel.normals},
                        frame->framebuffer, frame->width, frame->height);
+    endStage(frame, "present");
     renderer->accumulate.count = 0;
     renderer->sampleEnd = frame->output == vt_outputPicture;
 }
@@ -460,6 +499,13 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     renderer->technique = frame->technique;
     renderer->backSurface = frame->backSurface;
 
+    endStage(frame, "prepare");
+#ifdef VT_WITH_BVH
+    result = prepareBvh(renderer, frame, error);
+    if (result != vt_ok) {
+        return result;
+    }
+#endif
     resetState(gl);
     if (frame->output != vt_outputPicture || frame->firstSample + frame->samples == 1) {
         drawStraight(renderer, frame);
@@ -513,19 +559,30 @@ vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_
     return vtCheckGL(gl, "reading the picture back", error);
 }
 
-vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error)
+/// The path target: four words a pixel, bottom row first, allocated by malloc.
+static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, vtError* error)
 {
     const vtGL* gl = &renderer->gl;
     const int width = renderer->refract.paths.width, height = renderer->refract.paths.height;
     assert(width > 0 && "draw a frame before reading its directions");
-    uint32_t* paths = malloc(16 * (size_t)width * (size_t)height);
-    if (paths == NULL) {
+    *paths = malloc(16 * (size_t)width * (size_t)height);
+    if (*paths == NULL) {
         return vtFail(error, vt_errorMemory, "directions: out of memory for %d x %d pixels", width, height);
     }
     gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->refract.framebuffer);
-    gl->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, paths);
+    gl->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, *paths);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    return vt_ok;
+}
 
+vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error)
+{
+    const int width = renderer->refract.paths.width, height = renderer->refract.paths.height;
+    uint32_t* paths;
+    vtResult result = readPaths(renderer, &paths, error);
+    if (result != vt_ok) {
+        return result;
+    }
     for (int row = 0; row < height; ++row) {
         const uint32_t* from = paths + 4 * (size_t)width * (size_t)(height - 1 - row);
         float* to = directions + 3 * (size_t)width * (size_t)row;
@@ -539,7 +596,25 @@ vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtEr
         }
     }
     free(paths);
-    return vtCheckGL(gl, "reading directions back", error);
+    return vtCheckGL(&renderer->gl, "reading directions back", error);
+}
+
+vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error)
+{
+    const int width = renderer->refract.paths.width, height = renderer->refract.paths.height;
+    uint32_t* paths;
+    vtResult result = readPaths(renderer, &paths, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    for (int row = 0; row < height; ++row) {
+        const uint32_t* from = paths + 4 * (size_t)width * (size_t)(height - 1 - row);
+        for (int column = 0; column < width; ++column, from += 4) {
+            *states++ = from[3];
+        }
+    }
+    free(paths);
+    return vtCheckGL(&renderer->gl, "reading states back", error);
 }
 
 vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
@@ -551,6 +626,7 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
         .version = (const char*)gl->GetString(GL_VERSION),
         .textureBytes = vtSurfacePass_Bytes(&renderer->surface) + vtPeelPass_Bytes(&renderer->peel) +
                         vtTexture_Bytes(&renderer->merge.depths) + vtCubePass_Bytes(&renderer->cube) +
+                        vtTexture_Bytes(&renderer->bvh.nodes) + vtTexture_Bytes(&renderer->bvh.triangles) +
                         vtTexture_Bytes(&renderer->refract.paths) +
                         vtTexture_Bytes(&renderer->refract.light) +
                         vtTexture_Bytes(&renderer->present.environment) +

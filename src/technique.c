@@ -14,6 +14,14 @@
             "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns"               \
     }
 
+// The same with two more, which the renderer binds.
+#define VT_BVH_SAMPLERS                                                                                      \
+    {                                                                                                        \
+        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns",              \
+            "u_bvhNodes", "u_bvhTriangles"                                                                   \
+    }
+
 static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueKayLinear] =
         {
@@ -141,6 +149,25 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                      &vtChunk_walk_mesh, &vtChunk_search_exact, &vtChunk_refract_exact_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
+#ifdef VT_WITH_BVH
+    [vt_techniqueBvh] =
+        {
+            .info = {.id = "bvh",
+                     .summary =
+                         "yardstick: a hierarchy of the triangles walked in the shader, no image space",
+                     .source = "Aila & Laine, Understanding the Efficiency of Ray Traversal on GPUs",
+                     .year = 2026,
+                     .refracts = true},
+            .surface = true,
+            .bvh = true,
+            .refract = {.name = "bvh",
+                        .vertex = {&vtChunk_screen_vert},
+                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
+                                     &vtChunk_first_surface,
+                                     &vtChunk_triangles, &vtChunk_search_bvh, &vtChunk_refract_bvh_frag},
+                        .samplers = VT_BVH_SAMPLERS},
+        },
+#endif
 };
 
 const vtTechniqueRow* vtTechnique_Row(vtTechnique technique)

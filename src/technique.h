@@ -21,6 +21,7 @@ typedef struct vtTechniqueRow {
     vtLayerSpace layerSpace;
     bool cube;  ///< layered depth cube, or its like from the eye
     bool merge; ///< layers merged and gathered four to a texel
+    bool bvh;   ///< hierarchy over the triangles
     vtProgramDef refract;
 } vtTechniqueRow;
 

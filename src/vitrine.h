@@ -22,6 +22,10 @@
 
 #include "../shaders_es3/constants.h" // VT_MAX_LAYERS and the other limits, shared with the shaders
 
+#ifndef __EMSCRIPTEN__
+#define VT_WITH_BVH ///< technique `bvh` and the counting of texture reads, for measurements
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -190,6 +194,9 @@ typedef enum vtTechnique {
     vt_techniqueOliveira,
     vt_techniqueLayered,
     vt_techniqueExact,
+#ifdef VT_WITH_BVH // a yardstick, kept out of web pages
+    vt_techniqueBvh,
+#endif
     vt_techniqueCount,
 } vtTechnique;
 
@@ -244,6 +251,10 @@ typedef enum vtBackSurface {
 
 #define VT_MAX_SAMPLES 4096
 
+/// `stage`: prepare (sizes, shaders not compiled yet), bvh, surface, peel, cube, merge, refract or present;
+/// those that a frame has, in this order.
+typedef void vtStageFcn(const char* stage, void* userData);
+
 /// Everything that decides one picture.
 typedef struct vtFrame {
     vtView view;
@@ -277,6 +288,10 @@ typedef struct vtFrame {
                  ///< the picture take one. Default 1, the pixel's centre
     int firstSample;      ///< 0 to 1000000: number of the first of them, see vtRenderer_Draw; default 0
     uint32_t framebuffer; ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
+    /// For measurements: called when the GL commands of a stage have been issued. Default NULL.
+    vtStageFcn* stageDone;
+    void* stageData; ///< passed to stageDone
+    bool countReads; ///< for measurements, slower: see vtRenderer_ReadStates; default false
 } vtFrame;
 
 /// 512 x 512, technique exact, and the defaults documented at each field; the view looks at the origin.
@@ -323,7 +338,7 @@ typedef struct vtRendererInfo {
     const char* vendor;
     const char* device;
     const char* version;
-    size_t textureBytes;         ///< GPU memory of layers, targets and environment
+    size_t textureBytes;         ///< GPU memory of layers, hierarchy, targets and environment
     size_t meshBytes;            ///< GPU memory of the mesh
     int layerWidth, layerHeight; ///< of the last frame, texels
 } vtRendererInfo;
@@ -354,6 +369,12 @@ vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_
 /// Exit directions of the last frame's last sample: 3 * width * height floats, top row first. Unit world
 /// directions; (0,0,0) where the eye ray misses the glass, (2,2,2) where the path was lost.
 vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error);
+
+/// What became of the paths of the last frame's last sample: width * height words, top row first. The lowest
+/// byte is VT_PATH_BACKGROUND, VT_PATH_EXITED or VT_PATH_LOST, the second the number of events; VT_PATH_TIR
+/// is set where total internal reflection took part; with countReads the word above VT_PATH_READS_SHIFT is
+/// the number of texture reads, the first surface's included (0 for the kay techniques).
+vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error);
 
 vtRendererInfo vtRenderer_Info(const vtRenderer* renderer);
 

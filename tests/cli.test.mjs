@@ -323,6 +323,66 @@ describe('measuring', () => {
     assert.ok(existsSync(join(folder, 'ladder.png')));
   });
 
+  test('bench: a report of every technique asked for', () => {
+    const args = ['bench', 'torus', '--resolution', '64,64', '--rounds', '1'];
+    const result = vitrine([...args, '--json', '--table', 'bench.md']);
+    assert.equal(result.code, 0, result.error);
+    assert.match(result.error, /^vitrine: bench: torus, 36864 triangles, 64 x 64\n$/);
+    const report = JSON.parse(result.text);
+    assert.deepEqual([report.model, report.sweep, report.cases.length, report.maxEvents], ['torus', '', 1, 8]);
+    const [measured] = report.cases;
+    assert.deepEqual(measured.techniques.map(({ id }) => id), ['exact', 'layered', 'bvh', 'single']);
+    assert.ok(measured.paths > 500 && measured.eventsAPath > 2 && measured.reference.cpu > 0);
+    const [exact, layered, bvh, single] = measured.techniques;
+    assert.ok(bvh.within1 > 0.995 && exact.within1 > 0.97 && layered.within1 > 0.3, JSON.stringify(measured));
+    assert.ok(single.within5 < 0.5 && single.readsAPath === 2, 'single reads the first surface only');
+    assert.ok(exact.readsAPath > 10 && exact.readsAPath < bvh.readsAPath);
+    assert.ok(exact.textureBytes > single.textureBytes && bvh.textureBytes > single.textureBytes);
+    assert.ok(exact.build > 0 && bvh.build > 0 && layered.build === 0);
+    assert.ok(layered.wallToLayered === 1 && layered.stages.peel.wall > 0 && exact.stages.peel.wall === 0);
+    const table = readFileSync(join(folder, 'bench.md'), 'utf8');
+    assert.match(table, /^`torus`, 36864 triangles, 64 x 64, index 1\.5, .*\n\n\| technique \| frame \|/);
+    assert.match(table, /\n\| exact, 8 layers of 128 \|/);
+    assert.match(table, /\n\| Embree \|/);
+    const widths = new Set(table.split('\n\n')[1].split('\n').map((line) => line.split('|').length));
+    assert.equal(widths.size, 1, 'every row has as many cells');
+    assert.match(vitrine(['bench', '--help']).text, /--sweep triangles\|resolution/);
+  });
+
+  test('bench: sweeps and their plots', () => {
+    const result = vitrine(['bench', 'torus', '-t', 'single,bvh', '--rounds', '1', '--resolution', '32,32', '--json',
+      '--sweep', 'triangles', '--plot', 'plot.svg', '--threads', '1']);
+    assert.equal(result.code, 0, result.error);
+    const { cases, threads } = JSON.parse(result.text);
+    assert.equal(threads, 1);
+    assert.equal(cases.length, 6);
+    cases.forEach(({ triangles }, i) => {
+      const wanted = [1e3, 4e3, 16e3, 64e3, 250e3, 1e6][i];
+      assert.ok(Math.abs(triangles / wanted - 1) < 0.05, `${triangles} triangles`);
+    });
+    const svg = readFileSync(join(folder, 'plot.svg'), 'utf8');
+    assert.equal(svg.match(/<polyline/g).length, 3);
+    assert.ok(!/nan|inf/.test(svg), 'every point has a place');
+  });
+
+  test('bench refuses what it cannot measure', () => {
+    const fails = (args, parts) => {
+      const result = vitrine(['bench', ...args, '--resolution', '16,16']);
+      assert.equal(result.code, 1);
+      assert.match(result.error, /^vitrine: [^\n]+\n$/);
+      for (const part of parts) assert.ok(result.error.includes(part), `'${part}' is not in: ${result.error}`);
+    };
+    fails([], ['no model given']);
+    fails(['knot', '-t', 'exact,magic'], ["'magic'", 'vitrine list']);
+    fails(['knot', '-t', 'reference'], ["'reference'", 'always measured']);
+    fails(['knot', '-t', ','], ['names none']);
+    fails(['knot', '--sweep', 'time'], ["'time'", 'triangles or resolution']);
+    fails(['goblet', '--sweep', 'triangles'], ["'goblet'", 'knot or torus']);
+    fails(['goblet', '--triangles', '5000'], ["'goblet'", 'the knot and the torus can']);
+    fails(['knot', '--plot', 'x.svg'], ['add --sweep']);
+    fails(['knot', '--rounds', '0'], ['--rounds is 0', 'from 1 to 99']);
+  });
+
   test('the thesis needs a folder and no model', () => {
     assert.match(vitrine(['thesis']).error, /add -o FOLDER/);
     assert.match(vitrine(['thesis', 'knot', '-o', 'x']).error, /'knot' is one too many/);

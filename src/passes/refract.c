@@ -1,9 +1,33 @@
 #include "passes/refract.h"
 
-#include "base/error.h"
+#include <string.h>
 
-vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error)
+#include "base/error.h"
+#include "shaders.h"
+
+#ifdef VT_WITH_BVH
+static vtResult prepareCounter(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error)
 {
+    vtProgramDef def = vtTechnique_Row(technique)->refract;
+    memmove(def.fragment + 2, def.fragment + 1, (VT_MAX_CHUNKS - 2) * sizeof *def.fragment);
+    def.fragment[1] = &vtChunk_count_reads; // behind path.glsl
+    return vtCreateProgram(gl, &def, &pass->counters[technique], error);
+}
+#endif
+
+vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, bool countReads,
+                               vtError* error)
+{
+#ifdef VT_WITH_BVH
+    if (countReads && pass->counters[technique] == 0) {
+        vtResult result = prepareCounter(pass, gl, technique, error);
+        if (result != vt_ok) {
+            return result;
+        }
+    }
+#else
+    (void)countReads;
+#endif
     if (pass->programs[technique] != 0) {
         return vtSucceed(error);
     }
@@ -34,7 +58,7 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     const bool onlyGlass = vtTechnique_Row(technique)->surface;
     vtBindFramebuffer(gl, onlyGlass ? pass->glassFramebuffer : pass->framebuffer, pass->paths.width,
                       pass->paths.height);
-    gl->UseProgram(pass->programs[technique]);
+    gl->UseProgram((inputs->countReads ? pass->counters : pass->programs)[technique]);
     // Units as VT_REFRACT_SAMPLERS in technique.c names them.
     const vtTexture* units[] = {inputs->surface,       inputs->innerDistances, inputs->layerDepths,
                                 inputs->layerNormals,  inputs->mergedDepths,   inputs->cubeSurfaces,
@@ -68,6 +92,7 @@ void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl)
 {
     for (int i = 0; i < vt_techniqueCount; ++i) {
         gl->DeleteProgram(pass->programs[i]);
+        gl->DeleteProgram(pass->counters[i]);
     }
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtDestroyFramebuffers(gl, &pass->glassFramebuffer, 1);

@@ -7,6 +7,7 @@
 /// Follows every pixel's path through the glass with one technique of the ladder.
 typedef struct vtRefractPass {
     GLuint programs[vt_techniqueCount]; ///< compiled when first used
+    GLuint counters[vt_techniqueCount]; ///< the same, counting texture reads
     GLuint framebuffer;
     GLuint glassFramebuffer; ///< the same with the surface pass's depth: only pixels that see glass are drawn
     vtTexture light; ///< RG32UI: four halves, transmittance and light added on the way (red, green, blue)
@@ -25,9 +26,11 @@ typedef struct vtRefractInputs {
     const vtTexture* intervals;
     const vtTexture* triangles;
     const vtTexture* cubeColumns;
+    bool countReads;
 } vtRefractInputs;
 
-vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtError* error);
+vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, bool countReads,
+                               vtError* error);
 /// surfaceDepth: of the surface pass, of the same size; NULL for a technique that has no use of it.
 vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height,
                               const vtTexture* surfaceDepth, vtError* error);

@@ -90,18 +90,23 @@ bool vtBuildSphere(vtShapeData* shape)
 
 // ------------------------------------------------------------------------------------------------- torus
 
+static uint32_t divide(int divisions, const vtShapeData* shape)
+{
+    return (uint32_t)((float)divisions * shape->fineness + 0.5f);
+}
+
 bool vtBuildTorus(vtShapeData* shape)
 {
-    enum { rings = 96, columns = 192 };
+    const uint32_t rings = divide(96, shape), columns = divide(192, shape);
     const float major = 1.0f;
     const float minor = 0.4f;
     if (!vtShape_Reserve(shape, rings * columns, 2 * rings * columns)) {
         return false;
     }
     for (uint32_t ring = 0; ring < rings; ++ring) {
-        float v = 2.0f * VT_PI * (float)ring / rings;
+        float v = 2.0f * VT_PI * (float)ring / (float)rings;
         for (uint32_t column = 0; column < columns; ++column) {
-            float u = 2.0f * VT_PI * (float)column / columns;
+            float u = 2.0f * VT_PI * (float)column / (float)columns;
             vtVec3 spoke = {cosf(u), 0.0f, sinf(u)};
             vtVec3 normal = vtNormalize((vtVec3){cosf(v) * spoke.x, sinf(v), cosf(v) * spoke.z});
             vtShape_AddVertex(shape, vtMulAdd(vtScale(spoke, major), minor, normal), normal);
@@ -142,7 +147,7 @@ static KnotFrame getKnotFrame(float t)
 
 bool vtBuildKnot(vtShapeData* shape)
 {
-    enum { rings = 480, columns = 48 };
+    const uint32_t rings = divide(480, shape), columns = divide(48, shape);
     // Strands' centre lines come no nearer than 0.858 to each other and bend with radii of 0.72 and more
     // (measured), so a tube below 0.43 cannot meet itself; this leaves gaps of half its width.
     const float tube = 0.28f;
@@ -150,9 +155,9 @@ bool vtBuildKnot(vtShapeData* shape)
         return false;
     }
     for (uint32_t ring = 0; ring < rings; ++ring) {
-        KnotFrame frame = getKnotFrame(2.0f * VT_PI * (float)ring / rings);
+        KnotFrame frame = getKnotFrame(2.0f * VT_PI * (float)ring / (float)rings);
         for (uint32_t column = 0; column < columns; ++column) {
-            float s = 2.0f * VT_PI * (float)column / columns;
+            float s = 2.0f * VT_PI * (float)column / (float)columns;
             vtVec3 normal = vtNormalize(vtMulAdd(vtScale(frame.normal, cosf(s)), sinf(s), frame.side));
             vtShape_AddVertex(shape, vtMulAdd(frame.centre, tube, normal), normal);
         }

@@ -12,15 +12,16 @@ typedef struct ShapeRow {
     const char* name;
     const char* summary;
     bool (*build)(vtShapeData* shape);
+    uint32_t triangles; // where it can be built of others: how many it has
 } ShapeRow;
 
 static const ShapeRow shapeTable[] = {
-    {"sphere", "solid ball of radius 1", vtBuildSphere},
-    {"torus", "solid ring, radii 1 and 0.4, about the vertical axis", vtBuildTorus},
-    {"knot", "trefoil knot of a round rod, the (2, 3) torus knot", vtBuildKnot},
-    {"goblet", "hollow wine glass with stem and foot", vtBuildGoblet},
-    {"bottle", "hollow wine bottle with lip and punt", vtBuildBottle},
-    {"diamond", "round brilliant cut with 57 facets and a faceted girdle", vtBuildDiamond},
+    {"sphere", "solid ball of radius 1", vtBuildSphere, 0},
+    {"torus", "solid ring, radii 1 and 0.4, about the vertical axis", vtBuildTorus, 2 * 96 * 192},
+    {"knot", "trefoil knot of a round rod, the (2, 3) torus knot", vtBuildKnot, 2 * 480 * 48},
+    {"goblet", "hollow wine glass with stem and foot", vtBuildGoblet, 0},
+    {"bottle", "hollow wine bottle with lip and punt", vtBuildBottle, 0},
+    {"diamond", "round brilliant cut with 57 facets and a faceted girdle", vtBuildDiamond, 0},
 };
 enum { shapeCount = sizeof shapeTable / sizeof shapeTable[0] };
 
@@ -57,15 +58,10 @@ static vtResult failUnknown(const char* name, vtError* error)
     return vtFail(error, vt_errorArgument, "shape '%.100s' is unknown; the shapes are %s", name, names);
 }
 
-vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error)
+static vtResult createShape(const ShapeRow* row, float fineness, vtMesh* mesh, vtError* error)
 {
-    assert(name != NULL && mesh != NULL);
-    *mesh = (vtMesh){0};
-    const ShapeRow* row = findShape(name);
-    if (row == NULL) {
-        return failUnknown(name, error);
-    }
-    vtShapeData shape = {0};
+    const char* name = row->name;
+    vtShapeData shape = {.fineness = fineness};
     vtResult result;
     if (row->build(&shape)) {
         vtMeshDef def = {
@@ -81,6 +77,32 @@ vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error)
     }
     vtShape_Free(&shape);
     return result;
+}
+
+vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error)
+{
+    assert(name != NULL && mesh != NULL);
+    *mesh = (vtMesh){0};
+    const ShapeRow* row = findShape(name);
+    return row != NULL ? createShape(row, 1.0f, mesh, error) : failUnknown(name, error);
+}
+
+bool vtHasFineShape(const char* name)
+{
+    const ShapeRow* row = findShape(name);
+    return row != NULL && row->triangles > 0;
+}
+
+vtResult vtCreateFineShape(const char* name, uint32_t triangles, vtMesh* mesh, vtError* error)
+{
+    *mesh = (vtMesh){0};
+    const ShapeRow* row = findShape(name);
+    if (!vtHasFineShape(name)) {
+        return vtFail(error, vt_errorArgument,
+                      "'%.100s' cannot be built of another number of triangles; the knot and the torus can",
+                      name);
+    }
+    return createShape(row, sqrtf((float)triangles / (float)row->triangles), mesh, error);
 }
 
 // -------------------------------------------------------------------------------------------- operations

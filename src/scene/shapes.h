@@ -10,7 +10,14 @@ typedef struct vtShapeData {
     uint32_t* indices;
     uint32_t vertexCount, vertexRoom;
     uint32_t indexCount, indexRoom;
+    float fineness; ///< of the round shapes' divisions, 1: the built-in ones
 } vtShapeData;
+
+/// The built-in `knot` or `torus` of about so many triangles, 200 to 4000000, for measurements. Fails with
+/// vt_errorArgument for another name.
+vtResult vtCreateFineShape(const char* name, uint32_t triangles, vtMesh* mesh, vtError* error);
+/// Whether it can be built so.
+bool vtHasFineShape(const char* name);
 
 /// Makes room in an empty shape; false where memory is short, and then the shape stays safe to free.
 bool vtShape_Reserve(vtShapeData* shape, uint32_t vertexRoom, uint32_t triangleRoom);

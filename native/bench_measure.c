@@ -1,0 +1,211 @@
+// What is measured of one case.
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "bench.h"
+
+static const double timeLimit = 40.0; // seconds a case
+
+static const char* const stageNames[vt_benchStages] = {"surface", "peel",    "cube",
+                                                       "merge",   "refract", "present"};
+
+const char* vtBenchStage(int index)
+{
+    return stageNames[index];
+}
+
+/// A clock that is read between the stages of a frame.
+typedef struct StageClock {
+    void (*finish)(void);
+    vtTiming last;
+    double build;
+    vtTiming stages[vt_benchStages];
+} StageClock;
+
+static void stageDone(const char* stage, void* userData)
+{
+    StageClock* clock = userData;
+    clock->finish();
+    const vtTiming now = {vtNow(), vtProcessorTime()}, last = clock->last;
+    clock->build += strcmp(stage, "bvh") == 0 || strcmp(stage, "cube") == 0 ? now.wall - last.wall : 0.0;
+    for (int i = 0; i < vt_benchStages; ++i) {
+        if (strcmp(stage, stageNames[i]) == 0) {
+            clock->stages[i].wall += now.wall - last.wall;
+            clock->stages[i].processor += now.processor - last.processor;
+        }
+    }
+    clock->last = now;
+}
+
+static StageClock startClock(const vtSession* session)
+{
+    StageClock clock = {.finish = session->context.getProcAddress("glFinish")};
+    clock.finish();
+    clock.last = (vtTiming){vtNow(), vtProcessorTime()};
+    return clock;
+}
+
+/// Draws with the clock between the stages.
+static vtResult drawStages(vtSession* session, vtRenderer* renderer, const vtFrame* frame, StageClock* clock,
+                           vtError* error)
+{
+    vtFrame timed = *frame;
+    *clock = startClock(session);
+    timed.stageDone = stageDone;
+    timed.stageData = clock;
+    return vtRenderer_DrawImage(renderer, &timed, NULL, error);
+}
+
+/// What a renderer of its own costs that draws this technique only: memory, and time to build, shaders
+/// compiled.
+static vtResult probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row, vtError* error)
+{
+    vtRenderer* renderer = NULL;
+    StageClock clock;
+    vtResult result = vtCreateRenderer(&(vtRendererDef){session->context.getProcAddress}, &renderer, error);
+    if (result == vt_ok) {
+        result = vtRenderer_SetEnvironment(renderer, &session->input.environment, error);
+    }
+    for (int warm = 0; warm < 2 && result == vt_ok; ++warm) {
+        clock = startClock(session);
+        result = vtRenderer_SetMesh(renderer, &session->input.mesh, error);
+        clock.finish();
+        measured->upload = vtNow() - clock.last.wall;
+        if (result == vt_ok) {
+            result = drawStages(session, renderer, &row->frame, &clock, error);
+        }
+    }
+    if (result == vt_ok) {
+        const vtRendererInfo info = vtRenderer_Info(renderer);
+        row->textureBytes = info.textureBytes;
+        measured->meshBytes = info.meshBytes;
+        row->build = clock.build;
+    }
+    vtDestroyRenderer(renderer);
+    return result;
+}
+
+static vtResult timeStages(vtSession* session, vtBenchRow* row, int rounds, vtError* error)
+{
+    double wall[vt_benchStages][vt_maxTimingRounds], processor[vt_benchStages][vt_maxTimingRounds];
+    vtResult result = vt_ok;
+    for (int round = 0; round < rounds && result == vt_ok; ++round) {
+        StageClock clock;
+        result = drawStages(session, session->renderer, &row->frame, &clock, error);
+        for (int i = 0; i < vt_benchStages; ++i) {
+            wall[i][round] = clock.stages[i].wall;
+            processor[i][round] = clock.stages[i].processor;
+        }
+    }
+    for (int i = 0; i < vt_benchStages && result == vt_ok; ++i) {
+        row->stages[i] = (vtTiming){vtMedian(wall[i], rounds), vtMedian(processor[i], rounds)};
+    }
+    return result;
+}
+
+static void countReads(const uint32_t* states, size_t count, vtBenchRow* row)
+{
+    double reads = 0.0, events = 0.0;
+    size_t paths = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const bool glass = (states[i] & 255u) != VT_PATH_BACKGROUND;
+        paths += glass;
+        events += glass ? states[i] >> 8 & 255u : 0;
+        reads += states[i] >> VT_PATH_READS_SHIFT;
+    }
+    row->readsAPath = paths > 0 ? reads / (double)paths : 0.0;
+    row->readsAnEvent = events > 0.0 ? reads / events : 0.0;
+}
+
+static vtResult checkRow(vtSession* session, const vtReferenceImage* truth, vtBenchRow* row, vtError* error)
+{
+    const size_t count = (size_t)truth->width * (size_t)truth->height;
+    const vtEventRange few = {1, 4};
+    float* directions = malloc(3 * sizeof *directions * count);
+    uint32_t* states = malloc(sizeof *states * count);
+    vtFrame counted = row->frame;
+    counted.countReads = true;
+    vtResult result = directions != NULL && states != NULL
+                          ? vtRenderer_DrawImage(session->renderer, &row->frame, NULL, error)
+                          : vtFail(error, vt_errorMemory, "bench: out of memory");
+    if (result == vt_ok) {
+        result = vtRenderer_ReadDirections(session->renderer, directions, error);
+    }
+    if (result == vt_ok) {
+        result = vtCompareDirectionsOfEvents(directions, truth->directions, truth->events, count, few,
+                                             &row->error, error);
+    }
+    if (result == vt_ok) {
+        result = vtRenderer_DrawImage(session->renderer, &counted, NULL, error);
+    }
+    if (result == vt_ok) {
+        result = vtRenderer_ReadStates(session->renderer, states, error);
+    }
+    if (result == vt_ok) {
+        countReads(states, count, row);
+    }
+    free(directions);
+    free(states);
+    return result;
+}
+
+static vtResult checkRows(vtSession* session, const vtReference* reference, const vtBench* bench,
+                          vtBenchCase* measured, vtError* error)
+{
+    vtReferenceImage truth;
+    vtReferenceDef def = {.frame = &measured->rows[0].frame, .threads = bench->threads};
+    vtResult result = vtReference_Trace(reference, &def, &truth, error);
+    double events = 0.0;
+    for (size_t i = 0; result == vt_ok && i < (size_t)truth.width * (size_t)truth.height; ++i) {
+        measured->paths += truth.states[i] != VT_PATH_BACKGROUND;
+        events += truth.events[i];
+    }
+    measured->eventsAPath = measured->paths > 0 ? events / (double)measured->paths : 0.0;
+    for (int i = 0; i < bench->rowCount && result == vt_ok; ++i) {
+        result = checkRow(session, &truth, &measured->rows[i], error);
+    }
+    vtDestroyReferenceImage(&truth);
+    return result;
+}
+
+static vtResult timeRows(const vtOptions* options, vtSession* session, const vtReference* reference,
+                         const vtBench* bench, vtBenchCase* measured, vtError* error)
+{
+    vtFrame frames[vt_maxBenchRows];
+    vtTiming times[vt_maxBenchRows];
+    for (int i = 0; i < bench->rowCount; ++i) {
+        frames[i] = measured->rows[i].frame;
+    }
+    const vtTimingDef def = {session->renderer, frames,          bench->rowCount, reference,
+                             bench->threads,    options->rounds, timeLimit};
+    vtResult result = vtTimeFrames(&def, times, &measured->traced, &measured->rounds, error);
+    for (int i = 0; i < bench->rowCount && result == vt_ok; ++i) {
+        measured->rows[i].time = times[i];
+        result = timeStages(session, &measured->rows[i], measured->rounds, error);
+    }
+    return result;
+}
+
+vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtBench* bench,
+                         vtBenchCase* measured, vtError* error)
+{
+    vtReference* reference = NULL;
+    vtResult result = vt_ok;
+    for (int i = 0; i < bench->rowCount && result == vt_ok; ++i) {
+        result = probe(session, measured, &measured->rows[i], error);
+    }
+    const double start = vtNow();
+    if (result == vt_ok) {
+        result = vtCreateReference(&session->input.mesh, &reference, error);
+    }
+    measured->tracerBuild = vtNow() - start;
+    if (result == vt_ok) {
+        result = checkRows(session, reference, bench, measured, error);
+    }
+    if (result == vt_ok) {
+        result = timeRows(options, session, reference, bench, measured, error);
+    }
+    vtDestroyReference(reference);
+    return result;
+}

@@ -1,0 +1,196 @@
+// The figures of `vitrine bench` as Markdown and as JSON.
+#include <string.h>
+
+#include "bench.h"
+
+static double mebibytes(size_t bytes)
+{
+    return (double)bytes / 1048576.0;
+}
+
+/// "bunny_69666" of "/models/bunny_69666.glb".
+static void shortName(const char* model, char name[128])
+{
+    const char* slash = strrchr(model, '/');
+    snprintf(name, 128, "%s", slash != NULL ? slash + 1 : model);
+    char* dot = strrchr(name, '.');
+    if (dot != NULL && dot != name) {
+        *dot = '\0';
+    }
+}
+
+static void writeHeader(const vtBench* bench, FILE* out)
+{
+    char name[128];
+    shortName(bench->model, name);
+    const vtBenchCase* first = &bench->cases[0];
+    fprintf(out, "`%s`", name);
+    if (bench->sweep == NULL || strcmp(bench->sweep, "triangles") != 0) {
+        fprintf(out, ", %d triangles", first->triangles);
+    }
+    if (bench->sweep == NULL || strcmp(bench->sweep, "resolution") != 0) {
+        fprintf(out, ", %d x %d", first->width, first->height);
+    }
+    fprintf(out, ", index %g, at most %d events, preset %s; ", (double)bench->ior, bench->maxEvents,
+            bench->preset);
+    if (bench->sweep == NULL) {
+        fprintf(out, "%zu pixels see glass, %.2f events a path; ", first->paths, first->eventsAPath);
+    }
+    fprintf(out, "%s, %s; ", bench->device, bench->version);
+    if (bench->threads > 0) {
+        fprintf(out, "%d thread%s", bench->threads, bench->threads > 1 ? "s" : "");
+    } else {
+        fprintf(out, "%d processors", bench->processors);
+    }
+    fprintf(out, "; medians of %d frames.", first->rounds);
+    if (bench->sweep == NULL) {
+        fprintf(out, " Mesh on the GPU: %.1f MB, %.0f ms.", mebibytes(first->meshBytes), first->upload);
+    }
+    fprintf(out, "\n\n");
+}
+
+/// The sweep's column; nothing without a sweep.
+static void writeVariable(const vtBench* bench, const vtBenchCase* measured, FILE* out)
+{
+    if (bench->sweep == NULL) {
+        return;
+    }
+    if (strcmp(bench->sweep, "triangles") == 0) {
+        fprintf(out, "| %d ", measured->triangles);
+    } else {
+        fprintf(out, "| %d x %d ", measured->width, measured->height);
+    }
+}
+
+static void writeRow(const vtBench* bench, const vtBenchCase* measured, int index, FILE* out)
+{
+    const vtBenchRow* row = &measured->rows[index];
+    const vtTiming *time = &row->time, *traced = &measured->traced;
+    const vtTiming toLayered = vtBench_ToLayered(bench, measured, index);
+    writeVariable(bench, measured, out);
+    fprintf(out, "| %s | %.1f ms | %.1f ms | %.2f | %.2f | ", row->label, time->wall, time->processor,
+            time->wall / traced->wall, time->processor / traced->processor);
+    fprintf(out, toLayered.wall > 0.0 ? "%.2f | %.2f | " : "- | - | ", toLayered.wall, toLayered.processor);
+    fprintf(out, "%.2f %% | %.2f %% | %.2f %% | ", 100.0 * row->error.within1, 100.0 * row->error.within5,
+            100.0 * row->error.lost);
+    fprintf(out, "%.1f | %.1f | %.1f MB | ", row->readsAPath, row->readsAnEvent,
+            mebibytes(row->textureBytes));
+    fprintf(out, row->build > 0.0 ? "%.0f ms |\n" : "- |\n", row->build);
+}
+
+static void writeStages(const vtBench* bench, FILE* out)
+{
+    fprintf(out, "\nStages, GL finished after each, with CPU time in brackets:\n\n| technique |");
+    for (int i = 0; i < vt_benchStages; ++i) {
+        fprintf(out, " %s |", vtBenchStage(i));
+    }
+    fprintf(out, "\n|---|");
+    for (int i = 0; i < vt_benchStages; ++i) {
+        fprintf(out, "---|");
+    }
+    fprintf(out, "\n");
+    for (int i = 0; i < bench->rowCount; ++i) {
+        const vtBenchRow* row = &bench->cases[0].rows[i];
+        fprintf(out, "| %s |", row->label);
+        for (int stage = 0; stage < vt_benchStages; ++stage) {
+            const vtTiming* time = &row->stages[stage];
+            fprintf(out, time->wall > 0.0 ? " %.1f (%.1f) ms |" : " - |", time->wall, time->processor);
+        }
+        fprintf(out, "\n");
+    }
+}
+
+void vtBench_WriteTable(const vtBench* bench, FILE* out)
+{
+    writeHeader(bench, out);
+    if (bench->sweep != NULL) {
+        fprintf(out, "| %s ", bench->sweep);
+    }
+    fprintf(out, "| technique | frame | CPU | frame / Embree | CPU / Embree | frame / layered | CPU / "
+                 "layered | within 1° | "
+                 "within 5° | lost | reads a path | reads an event | textures | build |\n");
+    for (int i = 0; i < (bench->sweep != NULL ? 15 : 14); ++i) {
+        fprintf(out, "|---");
+    }
+    fprintf(out, "|\n");
+    for (int i = 0; i < bench->caseCount; ++i) {
+        const vtBenchCase* measured = &bench->cases[i];
+        for (int row = 0; row < bench->rowCount; ++row) {
+            writeRow(bench, measured, row, out);
+        }
+        writeVariable(bench, measured, out);
+        fprintf(out, "| Embree | %.1f ms | %.1f ms | 1 | 1 | - | - | - | - | - | - | - | - | %.0f ms |\n",
+                measured->traced.wall, measured->traced.processor, measured->tracerBuild);
+    }
+    if (bench->sweep == NULL) {
+        writeStages(bench, out);
+    }
+}
+
+static void writeText(const char* name, const char* text, FILE* out)
+{
+    fprintf(out, "\"%s\":\"", name);
+    for (; *text != '\0'; ++text) {
+        if (*text == '"' || *text == '\\') {
+            fprintf(out, "\\%c", *text);
+        } else if ((unsigned char)*text < 32) {
+            fprintf(out, "\\u%04x", (unsigned)*text);
+        } else {
+            fputc(*text, out);
+        }
+    }
+    fprintf(out, "\",");
+}
+
+static void writeJsonRow(const vtBench* bench, const vtBenchCase* measured, int index, FILE* out)
+{
+    const vtBenchRow* row = &measured->rows[index];
+    const vtTiming toLayered = vtBench_ToLayered(bench, measured, index);
+    fprintf(out, "{");
+    writeText("id", row->id, out);
+    writeText("label", row->label, out);
+    fprintf(out, "\"wall\":%.4f,\"cpu\":%.4f,\"wallToReference\":%.5f,\"cpuToReference\":%.5f,",
+            row->time.wall, row->time.processor, row->time.wall / measured->traced.wall,
+            row->time.processor / measured->traced.processor);
+    if (toLayered.wall > 0.0) {
+        fprintf(out, "\"wallToLayered\":%.5f,\"cpuToLayered\":%.5f,", toLayered.wall, toLayered.processor);
+    }
+    fprintf(out, "\"pixels\":%zu,\"within1\":%.6f,\"within5\":%.6f,\"lost\":%.6f,", row->error.pixels,
+            row->error.within1, row->error.within5, row->error.lost);
+    fprintf(out, "\"readsAPath\":%.3f,\"readsAnEvent\":%.3f,\"textureBytes\":%zu,\"build\":%.3f,\"stages\":{",
+            row->readsAPath, row->readsAnEvent, row->textureBytes, row->build);
+    for (int i = 0; i < vt_benchStages; ++i) {
+        fprintf(out, "%s\"%s\":{\"wall\":%.4f,\"cpu\":%.4f}", i > 0 ? "," : "", vtBenchStage(i),
+                row->stages[i].wall, row->stages[i].processor);
+    }
+    fprintf(out, "}}");
+}
+
+void vtBench_WriteJson(const vtBench* bench, FILE* out)
+{
+    fprintf(out, "{");
+    writeText("version", VT_VERSION, out);
+    writeText("model", bench->model, out);
+    writeText("sweep", bench->sweep != NULL ? bench->sweep : "", out);
+    writeText("preset", bench->preset, out);
+    writeText("device", bench->device, out);
+    writeText("gl", bench->version, out);
+    fprintf(out, "\"threads\":%d,\"processors\":%d,\"ior\":%g,\"maxEvents\":%d,\"cases\":[", bench->threads,
+            bench->processors, (double)bench->ior, bench->maxEvents);
+    for (int i = 0; i < bench->caseCount; ++i) {
+        const vtBenchCase* measured = &bench->cases[i];
+        fprintf(out, "%s{\"triangles\":%d,\"width\":%d,\"height\":%d,\"rounds\":%d,\"paths\":%zu,",
+                i > 0 ? "," : "", measured->triangles, measured->width, measured->height, measured->rounds,
+                measured->paths);
+        fprintf(out, "\"eventsAPath\":%.4f,\"upload\":%.3f,\"meshBytes\":%zu,", measured->eventsAPath,
+                measured->upload, measured->meshBytes);
+        fprintf(out, "\"reference\":{\"wall\":%.4f,\"cpu\":%.4f,\"build\":%.3f},\"techniques\":[",
+                measured->traced.wall, measured->traced.processor, measured->tracerBuild);
+        for (int row = 0; row < bench->rowCount; ++row) {
+            fprintf(out, "%s", row > 0 ? "," : "");
+            writeJsonRow(bench, measured, row, out);
+        }
+        fprintf(out, "]}");
+    }
+    fprintf(out, "]}\n");
+}

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Writes docs/benchmarks.md and the plots beside it. --models FOLDER adds the bunny; --backend egl measures a GPU;
+# ROUNDS=3 is quicker.
+set -eu
+cd "$(dirname "$0")/.."
+vitrine=build/release/vitrine
+models="" backend=auto
+while [ $# -gt 0 ]; do
+  case $1 in
+    --models) models=$2 ;;
+    --backend) backend=$2 ;;
+    *) echo "benchmarks: unknown option '$1'; it takes --models FOLDER and --backend egl" >&2; exit 1 ;;
+  esac
+  shift 2
+done
+common=(--rendering-backend "$backend" --rounds "${ROUNDS:-9}" --camera 0.36,0.3,3.05 --target 0,0,0)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+{
+  cat <<'TEXT'
+# Benchmarks
+
+`vitrine bench`, made by `scripts/benchmarks.sh`. Every technique's frames are drawn in turns with the reference tracer
+(Embree, directions only, on the same processors): read the ratios, the times are those of one machine on one day.
+`exact`, `layered` and `single` work in image space; `bvh` walks a hierarchy of the triangles in the same kind of
+fragment shader, as a yardstick ([techniques.md](techniques.md)).
+
+- *frame*: median time of a frame, GL finished; *CPU*: the processors' time for it, all threads, which other programs
+  disturb less. Ratios to Embree and to `layered` of both.
+- *within 1°, 5°, lost*: exit directions against the reference, on pixels whose true path meets at most four surfaces.
+- *reads*: texture reads of the refract stage, counted by the shaders themselves, a pixel that sees glass and an event.
+- *textures*: all that a renderer holds that draws only this technique, but the mesh; *build*: cube or hierarchy, once
+  a mesh.
+TEXT
+  [ "${ROUNDS:-9}" -ge 9 ] || printf '\nPreliminary: few frames each, on processors that other programs used too. Read the CPU ratios.\n'
+  for model in ${models:+"$models/bunny_69666.glb"} knot torus; do
+    name=$(basename "$model" .glb)
+    printf '\n## %s\n\n' "${name%%_*}"
+    "$vitrine" bench "$model" "${common[@]}"
+  done
+  printf '\n## Triangles\n\nThe knot in ever more triangles; the picture hardly changes.\n\n![time over triangles](pictures/bench-triangles.svg)\n\n'
+  "$vitrine" bench knot "${common[@]}" --sweep triangles --plot "$scratch/bench-triangles.svg"
+  printf '\n## Resolution\n\n![time over pixels](pictures/bench-resolution.svg)\n\n'
+  "$vitrine" bench knot "${common[@]}" --sweep resolution --plot "$scratch/bench-resolution.svg"
+} >"$scratch/benchmarks.md"
+mv "$scratch"/bench-*.svg docs/pictures/
+mv "$scratch/benchmarks.md" docs/benchmarks.md

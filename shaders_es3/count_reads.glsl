@@ -1,0 +1,10 @@
+// For measurements: stands after path.glsl and counts the texture reads of all that follows.
+int g_reads = 0;
+#define texelFetch(s, p, l) (++g_reads, texelFetch(s, p, l))
+
+void writeCountedPath(vec3 direction, int status, int events, bool reflected)
+{
+    writePath(direction, status, events, reflected);
+    o_path.w |= uint(min(g_reads, VT_MAX_READS)) << VT_PATH_READS_SHIFT;
+}
+#define writePath writeCountedPath

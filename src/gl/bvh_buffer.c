@@ -1,0 +1,87 @@
+#include "gl/bvh_buffer.h"
+
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "scene/bvh_records.h"
+#include "scene/triangles.h"
+
+/// The mesh's triangle records, allocated by malloc.
+static vtResult readTriangles(const vtGL* gl, const vtMeshBuffer* mesh, uint32_t** records, vtError* error)
+{
+    const vtTexture* texture = &mesh->triangles;
+    *records = malloc(vtTexture_Bytes(texture));
+    if (*records == NULL) {
+        return vtFail(error, vt_errorMemory, "bvh: out of memory for %d triangles", mesh->indexCount / 3);
+    }
+    GLuint framebuffer = 0;
+    vtResult result =
+        vtMakeFramebuffer(gl, "triangles", &(vtAttachment){texture, 0}, 1, NULL, &framebuffer, error);
+    if (result == vt_ok) {
+        gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+        gl->ReadPixels(0, 0, texture->width, texture->height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, *records);
+        result = vtCheckGL(gl, "reading triangles back", error);
+    }
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    vtDestroyFramebuffers(gl, &framebuffer, 1);
+    if (result != vt_ok) {
+        free(*records);
+        *records = NULL;
+    }
+    return result;
+}
+
+/// Uploads `count` things of so many texels, whole rows first.
+static vtResult uploadRows(vtTexture* texture, const vtGL* gl, const uint32_t* words, uint32_t count,
+                           int texels, int things, vtError* error)
+{
+    const int whole = (int)count / things, rest = (int)count % things;
+    GLint largest = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (whole + 1 > largest || things * texels > largest) {
+        return vtFail(error, vt_errorContext,
+                      "bvh: the mesh has more triangles than this GPU can hold in a hierarchy; simplify it");
+    }
+    vtTexture_Resize(texture, gl, GL_RGBA32UI, things * texels, whole + (rest > 0), 0);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, things * texels, whole, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                      words);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, whole, rest * texels, rest > 0 ? 1 : 0, GL_RGBA_INTEGER,
+                      GL_UNSIGNED_INT, words + 4 * (size_t)(things * texels) * (size_t)whole);
+    return vt_ok;
+}
+
+vtResult vtBvhBuffer_Create(vtBvhBuffer* buffer, const vtGL* gl, const vtMeshBuffer* mesh, vtVec3 boundsMin,
+                            vtVec3 boundsMax, vtError* error)
+{
+    const uint32_t count = (uint32_t)mesh->indexCount / 3;
+    *buffer = (vtBvhBuffer){0};
+    uint32_t* triangles = NULL;
+    vtBvhRecords records = {0};
+    vtResult result = readTriangles(gl, mesh, &triangles, error);
+    if (result == vt_ok && !vtCreateBvhRecords(triangles, count, boundsMin, boundsMax, &records)) {
+        result = vtFail(error, vt_errorMemory, "bvh: out of memory for %u triangles", count);
+    }
+    free(triangles);
+    if (result == vt_ok) {
+        result =
+            uploadRows(&buffer->nodes, gl, records.nodes, records.nodeCount, 2, VT_BVH_NODES_A_ROW, error);
+    }
+    if (result == vt_ok) {
+        result =
+            uploadRows(&buffer->triangles, gl, records.triangles, count, 3, VT_BVH_TRIANGLES_A_ROW, error);
+    }
+    if (result == vt_ok) {
+        result = vtCheckGL(gl, "uploading the hierarchy", error);
+    }
+    vtDestroyBvhRecords(&records);
+    if (result != vt_ok) {
+        vtBvhBuffer_Destroy(buffer, gl);
+    }
+    return result;
+}
+
+void vtBvhBuffer_Destroy(vtBvhBuffer* buffer, const vtGL* gl)
+{
+    vtTexture_Destroy(&buffer->nodes, gl);
+    vtTexture_Destroy(&buffer->triangles, gl);
+}
