@@ -106,6 +106,28 @@ static vtResult drawLayerSheet(vtRenderer* renderer, const vtFrame* frame, Outpu
     return result;
 }
 
+static void sayLayers(const vtFrame* frame, const vtRendererInfo* info)
+{
+    const vtFrame resolved = vtResolveFrame(frame);
+    if (frame->technique != vt_techniqueExact) {
+        fprintf(stderr, "vitrine: %d layers of %d x %d\n", vtFrame_LayerCount(frame), info->layerWidth,
+                info->layerHeight);
+        return;
+    }
+    fprintf(stderr, "vitrine: preset %s: %d layers of %d x %d %s, %.1f MB", vtPresetName((int)frame->preset),
+            resolved.layers, resolved.cubeSize, resolved.cubeSize,
+            frame->layerSource == vt_layersFromEye ? "from the eye" : "along three axes",
+            (double)vtFrame_CubeBytes(frame) / 1e6);
+    for (int preset = 0; preset < vt_presetCount; ++preset) {
+        vtFrame other = vtDefaultFrame();
+        other.layerSource = frame->layerSource;
+        other.preset = (vtPreset)preset;
+        fprintf(stderr, "%s%s %.1f", preset == 0 ? " (" : ", ", vtPresetName(preset),
+                (double)vtFrame_CubeBytes(&other) / 1e6);
+    }
+    fprintf(stderr, " MB)\n");
+}
+
 static vtResult drawAll(const vtOptions* options, const vtFrame* frame, vtRenderer* renderer, uint8_t* pixels,
                         Output* outputs, vtError* error)
 {
@@ -113,9 +135,9 @@ static vtResult drawAll(const vtOptions* options, const vtFrame* frame, vtRender
     if (result == vt_ok && options->verbose) {
         vtRendererInfo info = vtRenderer_Info(renderer);
         fprintf(stderr, "vitrine: %s, %s\n", info.device, info.version);
-        fprintf(stderr, "vitrine: ior %g, %d layers of %d x %d, %.1f MB of textures, %.1f MB of mesh\n",
-                (double)frame->ior, vtFrame_LayerCount(frame), info.layerWidth, info.layerHeight,
+        fprintf(stderr, "vitrine: ior %g, %.1f MB of textures, %.1f MB of mesh\n", (double)frame->ior,
                 (double)info.textureBytes / 1e6, (double)info.meshBytes / 1e6);
+        sayLayers(frame, &info);
     }
     if (result == vt_ok && options->directions != NULL) {
         result = readDirections(renderer, frame, &outputs[outputDirections], error);

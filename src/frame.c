@@ -1,6 +1,7 @@
 // Defaults and ranges of a frame: the one place that knows them.
 #include "base/error.h"
 #include "base/math.h"
+#include "passes/cube.h"
 #include "technique.h"
 
 // One row a preset, as the table in vitrine.h.
@@ -38,6 +39,12 @@ vtFrame vtResolveFrame(const vtFrame* frame)
         resolved.maxEvents = presets[row].maxEvents;
     }
     return resolved;
+}
+
+size_t vtFrame_CubeBytes(const vtFrame* frame)
+{
+    const vtFrame resolved = vtResolveFrame(frame);
+    return vtCubeBytes(resolved.cubeSize, resolved.layers, frame->layerSource == vt_layersFromEye ? 1 : 3);
 }
 
 vtFrame vtDefaultFrame(void)

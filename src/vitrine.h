@@ -300,6 +300,10 @@ vtFrame vtDefaultFrame(void);
 /// The frame with every 0 that leaves a setting to the preset replaced by what it stands for.
 vtFrame vtResolveFrame(const vtFrame* frame);
 
+/// GPU memory that `exact` takes for its layers with the frame's settings, bytes; mesh and picture not
+/// counted.
+size_t vtFrame_CubeBytes(const vtFrame* frame);
+
 /// Checks every field against its documented range; the sentence names field, value and range.
 vtResult vtValidateFrame(const vtFrame* frame, vtError* error);
 

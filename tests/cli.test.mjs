@@ -108,7 +108,9 @@ describe('output', () => {
   test('layer sheet, analysis, both backends, verbose', () => {
     const result = vitrine(['render', 'torus', '-t', 'layered', ...small, '-o', 'a.png', '--layer-sheet', 'sheet.png', '--analysis', '-v']);
     assert.equal(result.code, 0, result.error);
-    assert.match(result.error, /4 layers of \d+ x \d+, [\d.]+ MB/);
+    assert.match(result.error, /[\d.]+ MB of textures.*\n.*4 layers of \d+ x \d+\n/);
+    const exact = vitrine(['render', 'torus', ...small, '-o', 'b.png', '-v']);
+    assert.match(exact.error, /preset medium: 8 layers of 128 x 128 along three axes, [\d.]+ MB \(low [\d.]+, medium [\d.]+, high [\d.]+ MB\)/);
     const sheet = readFileSync(join(folder, 'sheet.png'));
     assert.equal(sheet.readUInt32BE(16) % 4, 0);
     for (const backend of ['osmesa', 'egl', 'auto']) {

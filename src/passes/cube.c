@@ -197,3 +197,10 @@ size_t vtCubePass_Bytes(const vtCubePass* pass)
            vtTexture_Bytes(&pass->scratch[1]) + vtTexture_Bytes(&pass->scratch[2]) +
            vtTexture_Bytes(&pass->scratch[3]) + vtTexture_Bytes(&pass->columns);
 }
+
+size_t vtCubeBytes(int size, int layers, int sides)
+{
+    const size_t side = (size_t)size * (size_t)size, groups = (size_t)(layers + 3) / 4;
+    const size_t perSide = groups * (8 + 16) + 3 * 12 + 2; // surfaces, triangles, intervals, columns
+    return side * ((size_t)sides * perSide + 2 * 4 + 3 * 8 + 2);
+}

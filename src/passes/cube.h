@@ -30,3 +30,6 @@ vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layer
 void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer* mesh);
 void vtCubePass_Destroy(vtCubePass* pass, const vtGL* gl);
 size_t vtCubePass_Bytes(const vtCubePass* pass);
+
+/// The same before it is made.
+size_t vtCubeBytes(int size, int layers, int sides);

@@ -211,12 +211,32 @@ static void strangeMeshesAreDrawn(void** state)
     }
 }
 
+// What a preset's layers take is known before they are made.
+static void memoryIsForetold(void** state)
+{
+    Fixture* fixture = *state;
+    setShape(fixture->renderer, "sphere");
+    size_t before = 0, foretold = 0;
+    for (int preset = 0; preset < vt_presetCount; ++preset) {
+        vtFrame frame = smallFrame(vt_techniqueExact);
+        frame.preset = (vtPreset)preset;
+        draw(fixture, &frame);
+        size_t bytes = vtRenderer_Info(fixture->renderer).textureBytes;
+        if (preset > 0) {
+            assert_int_equal(bytes - before, vtFrame_CubeBytes(&frame) - foretold);
+        }
+        before = bytes;
+        foretold = vtFrame_CubeBytes(&frame);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(neighboursAreMutual),     cmocka_unit_test(pyramidChangesNoHit),
-        cmocka_unit_test(hitsAreThoseOfATracer),   cmocka_unit_test(cubeFollowsTheMesh),
-        cmocka_unit_test(extremeSettingsAreDrawn), cmocka_unit_test(strangeMeshesAreDrawn),
+        cmocka_unit_test(neighboursAreMutual),   cmocka_unit_test(pyramidChangesNoHit),
+        cmocka_unit_test(hitsAreThoseOfATracer), cmocka_unit_test(cubeFollowsTheMesh),
+        cmocka_unit_test(memoryIsForetold),      cmocka_unit_test(extremeSettingsAreDrawn),
+        cmocka_unit_test(strangeMeshesAreDrawn),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);
 }
