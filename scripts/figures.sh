@@ -11,7 +11,7 @@ bunny=""
 bash scripts/gallery.sh "$pictures"
 rm -f "$pictures"/{bottle,torus,sphere}.png
 
-for id in kay-linear kay-nonlinear kay-thickness single wyman oliveira layered reference; do
+for id in kay-linear kay-nonlinear kay-thickness single wyman oliveira layered exact bvh reference; do
   "$vitrine" render knot -t "$id" -e sky -r 320,320 -o "$pictures/technique-$id.png"
 done
 scratch=$(mktemp -d)
