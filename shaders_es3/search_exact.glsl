@@ -27,7 +27,8 @@ const int INNER = 0, OUTER = 1; // pyramids
 const int NEAR = 2;             // cells only: the outer intervals of their own four columns
 
 // In cells; from trials with the bunny, the cow, the knot and the torus at 64 to 512 texels a side.
-const float START = 4.0;  // depth within which a surface may be the one that the ray starts on
+// Depth within which a surface may be the one that the ray starts on; outside, where intervals are wider, more.
+const float START_INSIDE = 4.0, START_OUTSIDE = 8.0;
 const float WINDOW = 4.0; // depth about the ray within which a cell's surface is tried
 const float REACH = 8.0;  // depth beyond the cell up to which a walk may end
 
@@ -129,7 +130,7 @@ bool fits(vec4 b, float low, float high, float start, bool inside)
 // software renderers pay for every branch inside a loop at every step.
 void walkTiles(inout Search s, bool inside)
 {
-    float start = s.ray.originZ + START * VT_CUBE_DEPTH / float(u_cube.x);
+    float start = s.ray.originZ + (inside ? START_INSIDE : START_OUTSIDE) * VT_CUBE_DEPTH / float(u_cube.x);
     while (true) {
         ivec2 tile = s.cell >> s.level;
         vec4 b = readIntervals(s, tile, s.level, inside ? INNER : OUTER);
@@ -164,16 +165,18 @@ void walkTiles(inout Search s, bool inside)
 }
 
 const uint ENTERING = 0u, LEAVING = 1u, ANY = 2u;
+const int NO_SURFACE = -1, NO_GLASS = -2;
 
 // The column's surface of a kind whose depth is nearest to where the ray enters the cell, from `window` before
-// that to `window` beyond the cell. -1: none.
+// that to `window` beyond the cell. NO_SURFACE: none of these; NO_GLASS: the column has none at all.
 int nearestSurface(Search s, Passage p, ivec2 texel, float window, uint kind)
 {
     int groups = (u_cube.y + 3) / 4;
     float nearest = 1e9;
-    int best = -1;
+    int best = NO_SURFACE;
     for (int group = 0; group < groups; ++group) {
         uvec4 surfaces = texelFetch(u_cubeSurfaces, ivec3(texel, s.axis * groups + group), 0);
+        best = surfaces.x == VT_CUBE_NONE && group == 0 ? NO_GLASS : best;
         vec4 depths = vec4(surfaces >> 1u);
         vec4 along = (s.ray.mirrored ? VT_CUBE_DEPTH - depths : depths) - p.low;
         bvec4 isKind = equal(surfaces & 1u, uvec4(kind));
@@ -200,8 +203,8 @@ bool tryCell(Search s, Passage p, vec3 direction, bool inside, int attempt, inou
     texel = wide ? s.cell + ivec2(attempt & 1, (attempt >> 1) - 1) : texel;
     uint kind = wide ? ANY : inside != s.ray.mirrored ? LEAVING : ENTERING;
     int surface = nearestSurface(s, p, texel, wide ? 1e9 : WINDOW * cellDepth, kind);
-    isEmpty = surface < 0;
-    if (isEmpty) {
+    isEmpty = surface == NO_GLASS;
+    if (surface < 0) {
         return false;
     }
     int groups = (u_cube.y + 3) / 4;
