@@ -32,7 +32,7 @@ fragment shader, as a yardstick ([techniques.md](techniques.md)).
 - *textures*: all that a renderer holds that draws only this technique, but the mesh; *build*: cube or hierarchy, once
   a mesh.
 TEXT
-  [ "${ROUNDS:-9}" -ge 9 ] || printf '\nPreliminary: few frames each, on processors that other programs used too. Read the CPU ratios.\n'
+  [ "${ROUNDS:-9}" -ge 9 ] || printf '\nMedians of few frames: read the CPU ratios.\n'
   for model in ${models:+"$models/bunny_69666.glb"} knot torus; do
     name=$(basename "$model" .glb)
     printf '\n## %s\n\n' "${name%%_*}"
