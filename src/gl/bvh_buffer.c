@@ -31,22 +31,17 @@ static vtResult readTriangles(const vtGL* gl, const vtMeshBuffer* mesh, uint32_t
     return result;
 }
 
-/// Uploads `count` things of so many texels, whole rows first.
+/// Uploads `count` things of so many texels.
 static vtResult uploadRows(vtTexture* texture, const vtGL* gl, const uint32_t* words, uint32_t count,
                            int texels, int things, vtError* error)
 {
-    const int whole = (int)count / things, rest = (int)count % things;
     GLint largest = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (whole + 1 > largest || things * texels > largest) {
+    if ((int)count / things + 1 > largest || things * texels > largest) {
         return vtFail(error, vt_errorContext,
                       "bvh: the mesh has more triangles than this GPU can hold in a hierarchy; simplify it");
     }
-    vtTexture_Resize(texture, gl, GL_RGBA32UI, things * texels, whole + (rest > 0), 0);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, things * texels, whole, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                      words);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, whole, rest * texels, rest > 0 ? 1 : 0, GL_RGBA_INTEGER,
-                      GL_UNSIGNED_INT, words + 4 * (size_t)(things * texels) * (size_t)whole);
+    vtTexture_UploadRecords(texture, gl, words, (int)count, texels, things);
     return vt_ok;
 }
 

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "scene/triangles.h"
 
-/// Uploads the records, whole rows first.
 static vtResult uploadTriangles(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtError* error)
 {
     const int count = (int)(mesh->indexCount / 3);
@@ -21,12 +20,8 @@ static vtResult uploadTriangles(vtMeshBuffer* buffer, const vtGL* gl, const vtMe
     if (records == NULL) {
         return vtFail(error, vt_errorMemory, "mesh: out of memory for %d triangles", count);
     }
-    vtTexture_Resize(&buffer->triangles, gl, GL_RGBA32UI, 4 * VT_TRIANGLES_A_ROW, rows, 0);
-    const int whole = count / VT_TRIANGLES_A_ROW, rest = count % VT_TRIANGLES_A_ROW;
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 4 * VT_TRIANGLES_A_ROW, whole, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                      records);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, whole, 4 * rest, rest > 0 ? 1 : 0, GL_RGBA_INTEGER,
-                      GL_UNSIGNED_INT, records + VT_TRIANGLE_WORDS * VT_TRIANGLES_A_ROW * (size_t)whole);
+    vtTexture_UploadRecords(&buffer->triangles, gl, records, count, VT_TRIANGLE_WORDS / 4,
+                            VT_TRIANGLES_A_ROW);
     free(records);
     buffer->bytes += vtTexture_Bytes(&buffer->triangles);
     return vt_ok;

@@ -28,6 +28,16 @@ bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int wid
     return true;
 }
 
+void vtTexture_UploadRecords(vtTexture* texture, const vtGL* gl, const uint32_t* words, int count, int texels,
+                             int recordsARow)
+{
+    const int whole = count / recordsARow, rest = count % recordsARow, width = recordsARow * texels;
+    vtTexture_Resize(texture, gl, GL_RGBA32UI, width, whole + (rest > 0), 0);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, whole, GL_RGBA_INTEGER, GL_UNSIGNED_INT, words);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, whole, rest * texels, rest > 0 ? 1 : 0, GL_RGBA_INTEGER,
+                      GL_UNSIGNED_INT, words + 4 * (size_t)width * (size_t)whole);
+}
+
 void vtTexture_Destroy(vtTexture* texture, const vtGL* gl)
 {
     if (texture->name != 0) {

@@ -14,6 +14,9 @@ typedef struct vtTexture {
 /// Makes the texture of that format and size, dropping an older one of another; does nothing where the
 /// size is stable. layers = 0: GL_TEXTURE_2D, else GL_TEXTURE_2D_ARRAY. True where it was made anew.
 bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int width, int height, int layers);
+/// Makes the texture of `count` records of so many RGBA32UI texels each, so many to a row, and fills it.
+void vtTexture_UploadRecords(vtTexture* texture, const vtGL* gl, const uint32_t* words, int count, int texels,
+                             int recordsARow);
 void vtTexture_Destroy(vtTexture* texture, const vtGL* gl);
 size_t vtTexture_Bytes(const vtTexture* texture);
 
