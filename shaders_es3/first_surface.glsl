@@ -7,15 +7,13 @@ struct SurfaceHit {
     vec3 flatNormal;
 };
 
-// False where the pixel sees no glass. `direction` is the eye ray's.
-bool firstSurface(out SurfaceHit hit, out vec3 direction)
+// `direction` is the eye ray's. Only pixels that see glass are drawn (src/passes/refract.c).
+SurfaceHit firstSurface(out vec3 direction)
 {
     uvec4 surface = texelFetch(u_surface, ivec2(gl_FragCoord.xy), 0);
     float depth = uintBitsToFloat(surface.z);
     vec2 tangent = pictureTangent(gl_FragCoord.xy);
-    hit.position = u_eye.xyz + vec3(tangent * depth, depth) * mat3(u_worldToCamera);
-    hit.normal = unpackNormal(surface.x);
-    hit.flatNormal = unpackNormal(surface.y);
     direction = cameraDirection(tangent);
-    return depth > 0.0;
+    return SurfaceHit(u_eye.xyz + vec3(tangent * depth, depth) * mat3(u_worldToCamera), unpackNormal(surface.x),
+                      unpackNormal(surface.y));
 }

@@ -6,12 +6,8 @@ const int MOST_ROUNDS = 512;
 
 void main()
 {
-    SurfaceHit hit;
     vec3 direction;
-    if (!firstSurface(hit, direction)) {
-        writeBackground();
-        return;
-    }
+    SurfaceHit hit = firstSurface(direction);
     bool inside = dot(hit.flatNormal, direction) > 0.0; // an eye within the glass sees its back faces
     bool isMet = true, isNew = true, anyReflected = false;
     int status = VT_PATH_LOST, events = 0, axis = 0, tried = 0, attempt = 0;

@@ -1,12 +1,8 @@
 // Follows the path of each pixel that sees glass, event by event, until it has left the object for good.
 void main()
 {
-    SurfaceHit hit;
     vec3 direction;
-    if (!firstSurface(hit, direction)) {
-        writeBackground();
-        return;
-    }
+    SurfaceHit hit = firstSurface(direction);
     bool inside = dot(hit.flatNormal, direction) > 0.0; // an eye within the glass sees its back faces
     bool anyReflected = false;
     int status = VT_PATH_EXITED;

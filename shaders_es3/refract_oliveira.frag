@@ -7,12 +7,8 @@
 // say what the paper does); a ray that leaves the silhouette without a hit takes the last point within.
 void main()
 {
-    SurfaceHit hit;
     vec3 view;
-    if (!firstSurface(hit, view)) {
-        writeBackground();
-        return;
-    }
+    SurfaceHit hit = firstSurface(view);
     bool inside = false, reflected;
     vec3 T1 = meetSurface(view, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
     LayerRay ray = makeLayerRay(hit.position, T1);

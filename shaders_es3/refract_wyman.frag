@@ -16,12 +16,8 @@ float backViewDistance(vec2 position, vec3 viewDirection)
 
 void main()
 {
-    SurfaceHit hit;
     vec3 view;
-    if (!firstSurface(hit, view)) {
-        writeBackground();
-        return;
-    }
+    SurfaceHit hit = firstSurface(view);
     bool inside = false, reflected;
     vec3 T1 = meetSurface(view, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
 
