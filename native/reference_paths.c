@@ -77,19 +77,6 @@ static void intersect(RTCScene scene, const vtReferencePath* paths, const int* a
     }
 }
 
-/// Reflectance of a smooth dielectric for unpolarised light (Born & Wolf, Principles of Optics, 1.5.2);
-/// c: cosine of incidence; eta: index of refraction behind the ray over the one ahead.
-static float fresnel(float c, float eta)
-{
-    const float k = 1.0f - eta * eta * (1.0f - c * c);
-    if (k <= 0.0f) {
-        return 1.0f;
-    }
-    const float t = sqrtf(k);
-    const float s = (eta * c - t) / (eta * c + t), p = (eta * t - c) / (eta * t + c);
-    return 0.5f * (s * s + p * p);
-}
-
 static vtVec3 mirror(vtVec3 I, vtVec3 N)
 {
     return vtNormalize(vtMulAdd(I, -2.0f * vtDot(N, I), N));
@@ -111,7 +98,7 @@ static void meetByChance(vtReferencePath* path, vtVec3 N, vtVec3 G, float ior)
     if (vtDot(N, I) >= 0.0f) {
         N = G;
     }
-    if (vtNextRandom(&path->random) < fresnel(-vtDot(N, I), wasInside ? ior : 1.0f / ior)) {
+    if (vtNextRandom(&path->random) < vtFresnel(-vtDot(N, I), wasInside ? ior : 1.0f / ior)) {
         const vtVec3 R = mirror(I, N);
         path->direction = vtDot(R, G) > 0.0f ? R : mirror(I, G);
         path->inside = wasInside;

@@ -5,6 +5,8 @@
 #define VT_MAX_REFINE 32
 #define VT_MAX_EVENTS 64
 
+#define VT_MAX_OBJECTS 1024
+
 // A stored depth runs from 0 (near) to VT_DEPTH_SCALE (far) in 16 bits; VT_DEPTH_NONE marks "no surface".
 #define VT_DEPTH_SCALE 65534.0
 #define VT_DEPTH_NONE 65535u
@@ -13,6 +15,7 @@
 #define VT_PATH_BACKGROUND 0
 #define VT_PATH_EXITED 1
 #define VT_PATH_LOST 2
+#define VT_PATH_OPAQUE 3 // it ends on an opaque surface
 // The second byte of that channel counts events; this bit is set where total internal reflection took part.
 #define VT_PATH_TIR 65536
 // From this bit on texture reads are counted where the frame asks for it, up to VT_MAX_READS.
@@ -45,3 +48,20 @@
 #define VT_BVH_COUNT_SHIFT 28
 #define VT_BVH_NODES_A_ROW 1024
 #define VT_BVH_TRIANGLES_A_ROW 512
+
+// The table of objects (src/gl/scene_buffer.h): RGBA32UI texels, a row of them each. Numbers are the bits of floats.
+#define VT_OBJECT_TEXELS 16
+#define VT_OBJECT_LAYERS 0    // four: rows of the matrix from the world to its layers, whose coordinates run from 0 to 1
+#define VT_OBJECT_TRANSFORM 4 // three: rows of the matrix from the world to its own coordinates
+#define VT_OBJECT_EXTENT 7    // of its cube along the axes, own units; its box's diagonal, world
+#define VT_OBJECT_LOW 8       // its box, world; number of its layers among those of all
+#define VT_OBJECT_HIGH 9      // its box, world; 1 where it is opaque
+#define VT_OBJECT_GLASS 10    // index of refraction, absorption a unit of length (red, green, blue)
+#define VT_OBJECT_COLOR 11    // tint or base colour; number of its first attribute record, or VT_NO_TRIANGLE
+#define VT_OBJECT_SURFACE 12  // metallic, roughness, checker squares a unit of texture coordinates, 0
+#define VT_OBJECT_EMISSIVE 13 // light of its own; 0
+#define VT_OBJECT_IMAGES 14   // base colour and metallic-roughness image, or VT_NO_TRIANGLE; number of its first triangle; 0
+#define VT_OBJECT_FRUSTUM 15  // layered: tangents of its layers' frustum, left, bottom, right, top
+
+// Attribute records: three texels a triangle, one a corner: texture coordinates (bits of floats), colour (three
+// halves); as many triangles a row as triangle records.

@@ -12,6 +12,16 @@ vec3 bend(vec3 I, vec3 N, float eta, out bool reflected)
     return normalize(T);
 }
 
+// Reflectance of a smooth dielectric for unpolarised light (Born & Wolf, Principles of Optics, 1.5.2).
+// c: cosine of incidence; eta: index of refraction behind the ray over the one ahead.
+float fresnel(float c, float eta)
+{
+    float k = 1.0 - eta * eta * (1.0 - c * c);
+    float t = sqrt(max(k, 0.0));
+    float s = (eta * c - t) / (eta * c + t), p = (eta * t - c) / (eta * t + c);
+    return k <= 0.0 ? 1.0 : 0.5 * (s * s + p * p);
+}
+
 // One event of a path: the ray of direction I meets a surface of outward normals N (interpolated) and G
 // (of the triangle), inside the glass or not. Gives the new direction and keeps `inside` true to it.
 // Where the interpolated normal would send the ray through the wrong side, the triangle's is taken.

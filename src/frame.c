@@ -54,6 +54,7 @@ vtFrame vtDefaultFrame(void)
         .technique = vt_techniqueExact,
         .preset = vt_presetMedium,
         .ior = 1.5f,
+        .fresnel = true,
         .transmittance = 0.8f,
         .maxTransmittance = 0.95f,
         .minTransmittance = 0.2f,
@@ -94,7 +95,7 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         double value, low, high;
     } ranges[] = {
         {"field of view", frame->view.fovY, 1, 170},
-        {"index of refraction", frame->ior, 1, 4},
+        {"index of refraction", frame->ior, frame->ior == 0.0f ? 0 : 1, 4},
         {"preset", frame->preset, 0, vt_presetCount - 1},
         {"layers", frame->layers, 0, VT_MAX_LAYERS},
         {"steps", frame->steps, 0, VT_MAX_STEPS},
@@ -105,6 +106,7 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         {"min-transmittance", frame->minTransmittance, 0, frame->maxTransmittance},
         {"power", frame->power, 0, 100},
         {"wall-thickness", frame->wallThickness, 0, 1e6},
+        {"multi", frame->multi, vt_multiAny, vt_multiOrdered},
         {"back-surface", frame->backSurface, vt_backSecond, vt_backFarthest},
         {"layer-source", frame->layerSource, vt_layersFromCube, vt_layersFromEye},
         {"cube-size", frame->cubeSize, frame->cubeSize == 0 ? 0 : 32, 1024},

@@ -4,7 +4,7 @@
 ///
 ///   1. make an OpenGL ES 3.0, WebGL 2 or desktop GL 3.3+ context current (the caller's work);
 ///   2. vtCreateRenderer;
-///   3. a mesh (vtCreateShape, vtLoadModel or vtCreateMesh)     -> vtRenderer_SetMesh;
+///   3. a scene (vtLoadScene, or vtCreateMeshScene of a mesh)   -> vtRenderer_SetScene;
 ///   4. an environment (vtCreateEnvironment, vtLoadEnvironment) -> vtRenderer_SetEnvironment;
 ///   5. vtFrame frame = vtDefaultFrame(); frame.view = ...;       vtRenderer_Draw;
 ///   6. vtDestroyRenderer, with the same context current.
@@ -63,7 +63,9 @@ typedef struct vtMeshDef {
     const float* normals;   ///< 3 * vertexCount, outward, need not be unit; NULL: computed (see vtCreateMesh)
     const uint32_t* indices; ///< indexCount, counter-clockwise seen from outside; NULL: 0, 1, 2, ...
     uint32_t vertexCount;
-    uint32_t indexCount; ///< a multiple of 3
+    uint32_t indexCount;    ///< a multiple of 3
+    const float* texcoords; ///< 2 * vertexCount, (0, 0) the picture's upper left corner; NULL: none
+    const float* colors;    ///< 3 * vertexCount, linear, 0 to 1; NULL: white
 } vtMeshDef;
 
 /// A validated triangle mesh. Read it freely; change it only through the functions below.
@@ -80,6 +82,8 @@ typedef struct vtMesh {
     /// vertexCount numbers, or NULL (vtComputeInnerDistances).
     float* innerDistances;
     uint32_t degenerateCount; ///< triangles of no area, kept in the count above but never visible
+    float* texcoords;         ///< 2 * vertexCount, or NULL
+    float* colors;            ///< 3 * vertexCount, linear, or NULL
 } vtMesh;
 
 /// Copies and checks triangles. Missing normals are computed as angle-weighted means over welded
@@ -103,9 +107,82 @@ const char* vtShapeSummary(int index);
 /// Frees what the mesh holds and zeroes it. Safe on a zeroed mesh.
 void vtDestroyMesh(vtMesh* mesh);
 
-// ----------------------------------------------------------------------------------------------- model
+// ----------------------------------------------------------------------------------------------- scene
 
-/// Reads a whole file for the model loader (external buffers of a .gltf). On success returns true with
+/// What an object is made of. Colours are linear, 0 to 1 unless said otherwise.
+typedef struct vtMaterial {
+    bool opaque; ///< else glass
+    float ior;   ///< glass: index of refraction, 0.25 to 4; below that around it is a bubble. Default 1.5
+    vtVec3 tint; ///< glass: share of the light that passes a surface (base colour of glTF). Default 1, 1, 1
+    /// Glass: what is left of white light after attenuationDistance in it (KHR_materials_volume; t = T^d of
+    /// Kay & Greenberg 1979, equation 6). World units; 0: nothing is absorbed. Default 1, 1, 1 and 0.
+    vtVec3 attenuationColor;
+    float attenuationDistance;
+    vtVec3 baseColor;           ///< opaque. Default 0.8, 0.8, 0.8
+    float metallic, roughness;  ///< opaque: 0 to 1. Default 0 and 1
+    vtVec3 emissive;            ///< opaque: light of its own, 0 and above. Default 0
+    int baseColorImage;         ///< in the scene, sRGB, times baseColor; -1, the default: none
+    int metallicRoughnessImage; ///< green times roughness, blue times metallic; -1, the default: none
+    float checker; ///< opaque: squares along a unit of texture coordinates, alternately dark; 0, the default:
+                   ///< none
+} vtMaterial;
+
+/// A picture for materials: decoded, or still as the file has it.
+typedef struct vtImage {
+    uint8_t* pixels; ///< RGBA, 4 * width * height, top row first; NULL: not decoded, drawn as white
+    int width, height;
+    uint8_t* bytes; ///< a .png or .jpg, where this build cannot decode it (web pages); else NULL
+    size_t size;
+} vtImage;
+
+/// Affine: world = rows * (x, y, z, 1).
+typedef struct vtTransform {
+    float rows[3][4];
+} vtTransform;
+
+/// A mesh in its place. Objects that share a mesh share all memory of it.
+typedef struct vtObject {
+    uint32_t mesh, material; ///< in the scene
+    vtTransform toWorld;     ///< invertible
+    /// Where objects of glass overlap, there is the material of the one of highest priority; of equal ones,
+    /// that of the object of least volume, so that what lies wholly inside another replaces it. Default 0.
+    int priority;
+    char name[64]; ///< for sentences
+} vtObject;
+
+/// Objects, and what they are made of. Owns all its memory.
+typedef struct vtScene {
+    vtMesh* meshes; ///< in their own coordinates
+    vtMaterial* materials;
+    vtImage* images;
+    vtObject* objects;
+    struct vtView* cameras; ///< of the file; targets lie at the scene's centre's depth
+    uint32_t meshCount, materialCount, imageCount, objectCount, cameraCount;
+    bool allGlass; ///< the file said of none of its materials that it is glass, so all were made glass
+} vtScene;
+
+vtMaterial vtDefaultMaterial(void);
+vtTransform vtIdentityTransform(void);
+
+/// A scene of one object. Takes the mesh over (and zeroes *mesh) unless it fails, with vt_errorMemory.
+vtResult vtCreateMeshScene(vtMesh* mesh, const vtMaterial* material, vtScene* scene, vtError* error);
+
+/// Moves all that `other` has into the scene, its objects placed by `transform`, and zeroes it; cameras are
+/// kept as they are. On failure (vt_errorMemory) both stay as they were.
+vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* transform, vtError* error);
+
+/// Fails with vt_errorGeometry and a sentence where the scene cannot be drawn: no object, a scale of zero, a
+/// mesh or material that is not there, glass without a volume (open edges) inside other glass.
+/// vtRenderer_SetScene does it, too.
+vtResult vtValidateScene(const vtScene* scene, vtError* error);
+
+/// The scene's box in world coordinates: of its glass, or of all where it has none.
+void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boundsMax);
+
+/// Frees what the scene holds and zeroes it. Safe on a zeroed scene.
+void vtDestroyScene(vtScene* scene);
+
+/// Reads a whole file for the scene loader (external buffers of a .gltf). On success returns true with
 /// *bytes allocated by malloc; the loader frees it.
 typedef bool vtReadFileFcn(const char* path, uint8_t** bytes, size_t* size, void* userData);
 
@@ -117,6 +194,12 @@ typedef struct vtModelDef {
     vtReadFileFcn* readFile; ///< NULL: external buffers are an error
     void* userData;          ///< passed to readFile
 } vtModelDef;
+
+/// Loads glTF 2.0 (through tinygltf). Everything that can be wrong with a file gives a sentence. Materials
+/// with KHR_materials_transmission are glass; where the file has none such, all of them are made glass of
+/// their index of refraction. Primitives of one glTF mesh with the same material make one mesh; nodes that
+/// share it are instances. On failure *scene is zeroed.
+vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error);
 
 typedef struct vtModel {
     vtMesh mesh; ///< all triangles of the file's scene, in world space
@@ -178,6 +261,9 @@ vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect);
 
 /// Turns the eye about the target: `yaw` about +Y, `pitch` upwards, radians; stops short of the poles.
 vtView vtView_Orbit(vtView view, float yaw, float pitch);
+
+/// The same for the scene's glass, or all of it where there is none.
+vtView vtFrameScene(const vtScene* scene, float fovY, float aspect);
 
 /// Moves the eye towards (factor < 1) or away from (factor > 1) the target.
 vtView vtView_Zoom(vtView view, float factor);
@@ -243,6 +329,12 @@ typedef enum vtPreset { vt_presetLow = 0, vt_presetMedium, vt_presetHigh, vt_pre
 /// "low", "medium", "high"; NULL past the end.
 const char* vtPresetName(int index);
 
+/// How `layered` takes several objects of glass.
+typedef enum vtMulti {
+    vt_multiAny = 0, ///< paths go from object to object as they meet them, and back
+    vt_multiOrdered, ///< one object after the other, sorted from the eye (Wang & Chi 2014, section 3.7)
+} vtMulti;
+
 /// What `wyman` takes for the back side of an object.
 typedef enum vtBackSurface {
     vt_backSecond = 0, ///< the surface behind the first
@@ -260,8 +352,11 @@ typedef struct vtFrame {
     vtView view;
     vtTechnique technique;
     vtOutput output;
-    int layer;       ///< for the layer outputs: 0 (nearest) to layers - 1
-    float ior;       ///< index of refraction of the glass, 1 to 4; default 1.5
+    int layer;     ///< for the layer outputs: 0 (nearest) to layers - 1
+    float ior;     ///< index of refraction of all glass, 1 to 4; 0, the default: each object's own
+    bool fresnel;  ///< Fresnel reflection; without it paths only refract, or reflect where they must. Default
+                   ///< true
+    vtMulti multi; ///< layered, several objects; default vt_multiAny
     vtPreset preset; ///< of the settings that are 0; default vt_presetMedium
     int layers;      ///< depth layers peeled, 1 to VT_MAX_LAYERS; 0, the default: the preset's
     int steps;       ///< search steps a segment, 1 to VT_MAX_STEPS: linear ones; exact: texels of its pyramid
@@ -352,7 +447,10 @@ vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** renderer, vtErr
 /// Frees all GL objects; the same context must be current. Safe on NULL.
 void vtDestroyRenderer(vtRenderer* renderer);
 
-/// Uploads a mesh or an environment in place of the one before; on failure the one before stays.
+/// Uploads a scene or an environment in place of the one before; on failure the one before stays. The scene
+/// may go afterwards.
+vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError* error);
+/// A scene of one object of glass of index 1.5.
 vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error);
 vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error);
 

@@ -17,6 +17,19 @@ static inline vtVec3 vtBend(vtVec3 I, vtVec3 N, float eta, bool* reflected)
     return vtNormalize(T);
 }
 
+/// Reflectance of a smooth dielectric for unpolarised light (Born & Wolf, Principles of Optics, 1.5.2).
+/// c: cosine of incidence; eta: index of refraction behind the ray over the one ahead.
+static inline float vtFresnel(float c, float eta)
+{
+    const float k = 1.0f - eta * eta * (1.0f - c * c);
+    if (k <= 0.0f) {
+        return 1.0f;
+    }
+    const float t = sqrtf(k);
+    const float s = (eta * c - t) / (eta * c + t), p = (eta * t - c) / (eta * t + c);
+    return 0.5f * (s * s + p * p);
+}
+
 /// One event of a path: the ray of direction I meets a surface of outward normals N (interpolated) and G
 /// (of the triangle), inside the glass or not. Gives the new direction and keeps *inside true to it.
 /// Where the interpolated normal would send the ray through the wrong side, the triangle's is taken.

@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "base/math.h"
+#include "scene/objects.h"
 
 // How far the default view looks down, and round to the right; that of the truth images.
 static const vtVec3 defaultDirection = {0.1167f, 0.0972f, 0.9884f};
@@ -90,25 +91,57 @@ vtFrustum vtMakeLayerFrustum(const vtView* view, vtVec3 boundsMin, vtVec3 bounds
     return frustum;
 }
 
-vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect)
+/// How far along `direction` from the centre an eye must stand so that the vertices lie inside 90 % of the
+/// frame.
+static float frameDistance(const vtMesh* mesh, const vtTransform* toWorld, vtVec3 centre,
+                           const vtCameraFrame* camera, float tangentX, float tangentY)
 {
-    vtVec3 centre = vtScale(vtAdd(mesh->boundsMin, mesh->boundsMax), 0.5f);
-    vtView view = {centre, centre, fovY};
-
-    // The distance at which every vertex lies inside 90 % of the frame.
-    vtVec3 direction = vtNormalize(defaultDirection);
-    view.eye = vtAdd(centre, direction);
-    vtCameraFrame camera = vtMakeCameraFrame(&view);
-    float tangentY = 0.9f * tanf(view.fovY * VT_PI / 360.0f);
-    float tangentX = tangentY * aspect;
     float distance = 0.0f;
     for (uint32_t i = 0; i < mesh->indexCount; ++i) {
-        vtVec3 offset = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), centre);
-        float x = fabsf(vtDot(offset, camera.right)), y = fabsf(vtDot(offset, camera.up));
-        distance = fmaxf(distance, fmaxf(x / tangentX, y / tangentY) + vtDot(offset, direction));
+        const vtVec3 p = vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]);
+        const vtVec3 offset = vtSub(vtTransformPoint(toWorld, p), centre);
+        const float x = fabsf(vtDot(offset, camera->right)), y = fabsf(vtDot(offset, camera->up));
+        distance = fmaxf(distance, fmaxf(x / tangentX, y / tangentY) - vtDot(offset, camera->forward));
+    }
+    return distance;
+}
+
+vtView vtFrameScene(const vtScene* scene, float fovY, float aspect)
+{
+    vtVec3 low, high;
+    vtScene_Bounds(scene, &low, &high);
+    const vtVec3 centre = vtScale(vtAdd(low, high), 0.5f), direction = vtNormalize(defaultDirection);
+    vtView view = {vtAdd(centre, direction), centre, fovY};
+    const vtCameraFrame camera = vtMakeCameraFrame(&view);
+    const float tangentY = 0.9f * tanf(view.fovY * VT_PI / 360.0f), tangentX = tangentY * aspect;
+    bool anyGlass = false;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        anyGlass = anyGlass || !scene->materials[scene->objects[i].material].opaque;
+    }
+    float distance = 0.0f;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtObject* object = &scene->objects[i];
+        if (!anyGlass || !scene->materials[object->material].opaque) {
+            distance = fmaxf(distance, frameDistance(&scene->meshes[object->mesh], &object->toWorld, centre,
+                                                     &camera, tangentX, tangentY));
+        }
     }
     view.eye = vtMulAdd(centre, distance > 0.0f ? distance : 1.0f, direction);
     return view;
+}
+
+vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect)
+{
+    vtMaterial material = vtDefaultMaterial();
+    vtMesh borrowed = *mesh;
+    vtObject object = {.toWorld = vtIdentityTransform()};
+    const vtScene scene = {.meshes = &borrowed,
+                           .meshCount = 1,
+                           .materials = &material,
+                           .materialCount = 1,
+                           .objects = &object,
+                           .objectCount = 1};
+    return vtFrameScene(&scene, fovY, aspect);
 }
 
 vtView vtView_Orbit(vtView view, float yaw, float pitch)

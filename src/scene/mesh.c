@@ -279,6 +279,16 @@ static void findBounds(vtMesh* mesh)
 
 // ------------------------------------------------------------------------------------------------- calls
 
+/// NULL stays NULL.
+static bool copyNumbers(const float* from, size_t count, float** to)
+{
+    *to = from != NULL ? calloc(count, sizeof **to) : NULL;
+    if (*to != NULL) {
+        memcpy(*to, from, count * sizeof **to);
+    }
+    return from == NULL || *to != NULL;
+}
+
 static bool copyTriangles(const vtMeshDef* def, vtMesh* mesh)
 {
     // calloc multiplies with a check for overflow, which matters where size_t has 32 bits.
@@ -290,6 +300,10 @@ static bool copyTriangles(const vtMeshDef* def, vtMesh* mesh)
     }
     mesh->vertexCount = def->vertexCount;
     mesh->indexCount = def->indexCount;
+    if (!copyNumbers(def->texcoords, 2 * (size_t)def->vertexCount, &mesh->texcoords) ||
+        !copyNumbers(def->colors, 3 * (size_t)def->vertexCount, &mesh->colors)) {
+        return false;
+    }
     memcpy(mesh->positions, def->positions, def->vertexCount * 3 * sizeof(float));
     if (def->normals != NULL) {
         memcpy(mesh->normals, def->normals, def->vertexCount * 3 * sizeof(float));
@@ -353,5 +367,7 @@ void vtDestroyMesh(vtMesh* mesh)
     free(mesh->normals);
     free(mesh->indices);
     free(mesh->innerDistances);
+    free(mesh->texcoords);
+    free(mesh->colors);
     *mesh = (vtMesh){0};
 }

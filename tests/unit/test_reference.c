@@ -250,7 +250,13 @@ static vtReference* createPlate(void)
     }
     vtMesh mesh;
     vtError error;
-    assert_ok(vtCreateMesh(&(vtMeshDef){positions, normals, indices, 24, 36}, "plate", &mesh, &error), error);
+    assert_ok(vtCreateMesh(&(vtMeshDef){.positions = positions,
+                                        .normals = normals,
+                                        .indices = indices,
+                                        .vertexCount = 24,
+                                        .indexCount = 36},
+                           "plate", &mesh, &error),
+              error);
     assert_int_equal(mesh.openEdgeCount, 0);
     vtReference* reference = createReference(&mesh);
     vtDestroyMesh(&mesh);

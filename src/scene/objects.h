@@ -1,0 +1,51 @@
+// Objects as paths meet them: in the order that decides where they overlap.
+#pragma once
+
+#include "vitrine.h"
+
+typedef struct vtPlacedObject {
+    const vtMesh* mesh;
+    const vtMaterial* material;
+    uint32_t meshIndex, object; ///< in the scene
+    vtTransform toWorld, toObject;
+    vtVec3 low, high;  ///< box in the world
+    vtVec3 absorption; ///< glass: exp(-absorption * distance) is left of light, per world unit
+    bool mirrored;     ///< toWorld turns clockwise into counter-clockwise
+} vtPlacedObject;
+
+/// The scene's objects: glass by falling precedence, then what is opaque. Where objects of glass overlap, the
+/// first of them counts: an object's number here is its rank (scene/media.h). The order does not depend on
+/// the scene's. Allocated by malloc, scene->objectCount of them; *glassCount of these are glass. They point
+/// into the scene. Fails as vtValidateScene does, and with vt_errorMemory.
+vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error);
+
+/// Does the object's mesh, which is closed, contain the point (world)?
+bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point);
+
+static inline vtVec3 vtTransformPoint(const vtTransform* t, vtVec3 p)
+{
+    const float* x = t->rows[0];
+    const float* y = t->rows[1];
+    const float* z = t->rows[2];
+    return (vtVec3){x[0] * p.x + x[1] * p.y + x[2] * p.z + x[3], y[0] * p.x + y[1] * p.y + y[2] * p.z + y[3],
+                    z[0] * p.x + z[1] * p.y + z[2] * p.z + z[3]};
+}
+
+static inline vtVec3 vtTransformVector(const vtTransform* t, vtVec3 v)
+{
+    const float* x = t->rows[0];
+    const float* y = t->rows[1];
+    const float* z = t->rows[2];
+    return (vtVec3){x[0] * v.x + x[1] * v.y + x[2] * v.z, y[0] * v.x + y[1] * v.y + y[2] * v.z,
+                    z[0] * v.x + z[1] * v.y + z[2] * v.z};
+}
+
+/// An outward normal of the object in the world, not of unit length; `toObject` is the inverse transform.
+static inline vtVec3 vtTransformNormal(const vtTransform* toObject, vtVec3 n)
+{
+    const float* x = toObject->rows[0];
+    const float* y = toObject->rows[1];
+    const float* z = toObject->rows[2];
+    return (vtVec3){x[0] * n.x + y[0] * n.y + z[0] * n.z, x[1] * n.x + y[1] * n.y + z[1] * n.z,
+                    x[2] * n.x + y[2] * n.y + z[2] * n.z};
+}

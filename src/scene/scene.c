@@ -1,0 +1,404 @@
+// Scenes put together, checked and taken apart.
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "scene/objects.h"
+
+vtMaterial vtDefaultMaterial(void)
+{
+    return (vtMaterial){
+        .ior = 1.5f,
+        .tint = {1.0f, 1.0f, 1.0f},
+        .attenuationColor = {1.0f, 1.0f, 1.0f},
+        .baseColor = {0.8f, 0.8f, 0.8f},
+        .roughness = 1.0f,
+        .baseColorImage = -1,
+        .metallicRoughnessImage = -1,
+    };
+}
+
+vtTransform vtIdentityTransform(void)
+{
+    return (vtTransform){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+}
+
+/// Room for `more` elements behind the `count` there are; false where memory is short.
+static bool grow(void* array, uint32_t count, uint32_t more, size_t size)
+{
+    void** at = array;
+    void* grown = realloc(*at, ((size_t)count + more + 1) * size);
+    *at = grown != NULL ? grown : *at;
+    return grown != NULL;
+}
+
+vtResult vtCreateMeshScene(vtMesh* mesh, const vtMaterial* material, vtScene* scene, vtError* error)
+{
+    *scene = (vtScene){0};
+    if (!grow(&scene->meshes, 0, 1, sizeof *scene->meshes) ||
+        !grow(&scene->materials, 0, 1, sizeof *scene->materials) ||
+        !grow(&scene->objects, 0, 1, sizeof *scene->objects)) {
+        vtDestroyScene(scene);
+        return vtFail(error, vt_errorMemory, "scene: out of memory");
+    }
+    scene->meshes[0] = *mesh;
+    scene->materials[0] = *material;
+    scene->objects[0] = (vtObject){.toWorld = vtIdentityTransform()};
+    scene->meshCount = scene->materialCount = scene->objectCount = 1;
+    *mesh = (vtMesh){0};
+    return vtSucceed(error);
+}
+
+static vtTransform multiply(const vtTransform* a, const vtTransform* b)
+{
+    vtTransform product;
+    for (int row = 0; row < 3; ++row) {
+        const float* r = a->rows[row];
+        for (int column = 0; column < 4; ++column) {
+            product.rows[row][column] = r[0] * b->rows[0][column] + r[1] * b->rows[1][column] +
+                                        r[2] * b->rows[2][column] + (column == 3 ? r[3] : 0.0f);
+        }
+    }
+    return product;
+}
+
+vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* transform, vtError* error)
+{
+    if (!grow(&scene->meshes, scene->meshCount, other->meshCount, sizeof *scene->meshes) ||
+        !grow(&scene->materials, scene->materialCount, other->materialCount, sizeof *scene->materials) ||
+        !grow(&scene->images, scene->imageCount, other->imageCount, sizeof *scene->images) ||
+        !grow(&scene->objects, scene->objectCount, other->objectCount, sizeof *scene->objects) ||
+        !grow(&scene->cameras, scene->cameraCount, other->cameraCount, sizeof *scene->cameras)) {
+        return vtFail(error, vt_errorMemory, "scene: out of memory for %u objects",
+                      scene->objectCount + other->objectCount);
+    }
+    for (uint32_t i = 0; i < other->objectCount; ++i) {
+        vtObject* object = &scene->objects[scene->objectCount + i];
+        *object = other->objects[i];
+        object->mesh += scene->meshCount;
+        object->material += scene->materialCount;
+        object->toWorld = multiply(transform, &other->objects[i].toWorld);
+    }
+    for (uint32_t i = 0; i < other->materialCount; ++i) {
+        vtMaterial* material = &scene->materials[scene->materialCount + i];
+        *material = other->materials[i];
+        material->baseColorImage += material->baseColorImage >= 0 ? (int)scene->imageCount : 0;
+        material->metallicRoughnessImage +=
+            material->metallicRoughnessImage >= 0 ? (int)scene->imageCount : 0;
+    }
+    for (uint32_t i = 0; i < other->meshCount; ++i) {
+        scene->meshes[scene->meshCount + i] = other->meshes[i];
+    }
+    for (uint32_t i = 0; i < other->imageCount; ++i) {
+        scene->images[scene->imageCount + i] = other->images[i];
+    }
+    for (uint32_t i = 0; i < other->cameraCount; ++i) {
+        scene->cameras[scene->cameraCount + i] = other->cameras[i];
+    }
+    scene->objectCount += other->objectCount;
+    scene->materialCount += other->materialCount;
+    scene->meshCount += other->meshCount;
+    scene->imageCount += other->imageCount;
+    scene->cameraCount += other->cameraCount;
+    other->meshCount = other->imageCount = 0; // what they hold has moved
+    vtDestroyScene(other);
+    return vtSucceed(error);
+}
+
+void vtDestroyScene(vtScene* scene)
+{
+    for (uint32_t i = 0; i < scene->meshCount; ++i) {
+        vtDestroyMesh(&scene->meshes[i]);
+    }
+    for (uint32_t i = 0; i < scene->imageCount; ++i) {
+        free(scene->images[i].pixels);
+        free(scene->images[i].bytes);
+    }
+    free(scene->meshes);
+    free(scene->materials);
+    free(scene->images);
+    free(scene->objects);
+    free(scene->cameras);
+    *scene = (vtScene){0};
+}
+
+// ------------------------------------------------------------------------------------------------ objects
+
+/// "object 3 ('cube')", for sentences.
+static void nameObject(const vtScene* scene, uint32_t index, char* text, size_t size)
+{
+    const char* name = scene->objects[index].name;
+    snprintf(text, size, name[0] != '\0' ? "object %u ('%s')" : "object %u", index, name);
+}
+
+static float determinant(const vtTransform* t)
+{
+    const vtVec3 x = vtMakeVec3(t->rows[0]), y = vtMakeVec3(t->rows[1]), z = vtMakeVec3(t->rows[2]);
+    return vtDot(vtCross(x, y), z);
+}
+
+static vtTransform invert(const vtTransform* t, float scale)
+{
+    const vtVec3 x = vtMakeVec3(t->rows[0]), y = vtMakeVec3(t->rows[1]), z = vtMakeVec3(t->rows[2]);
+    const vtVec3 columns[3] = {vtScale(vtCross(y, z), 1.0f / scale), vtScale(vtCross(z, x), 1.0f / scale),
+                               vtScale(vtCross(x, y), 1.0f / scale)};
+    vtTransform inverse;
+    for (int row = 0; row < 3; ++row) {
+        float* r = inverse.rows[row];
+        for (int column = 0; column < 3; ++column) {
+            const vtVec3 c = columns[column];
+            r[column] = row == 0 ? c.x : row == 1 ? c.y : c.z;
+        }
+        r[3] = -(r[0] * t->rows[0][3] + r[1] * t->rows[1][3] + r[2] * t->rows[2][3]);
+    }
+    return inverse;
+}
+
+static bool isFinite(const vtTransform* t)
+{
+    bool finite = true;
+    for (int i = 0; i < 12; ++i) {
+        finite = finite && isfinite(t->rows[i / 4][i % 4]);
+    }
+    return finite;
+}
+
+/// Six times the volume that the surface encloses, without sign; double: sums of many small parts.
+static double volumeOf(const vtPlacedObject* placed)
+{
+    const vtMesh* mesh = placed->mesh;
+    const vtVec3 origin = vtMakeVec3(mesh->positions);
+    double sum = 0.0;
+    for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
+        const vtVec3 a = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), origin);
+        const vtVec3 b = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 1]), origin);
+        const vtVec3 c = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 2]), origin);
+        sum += (double)vtDot(vtCross(a, b), c);
+    }
+    return fabs(sum * (double)determinant(&placed->toWorld));
+}
+
+/// The box of the eight corners of the mesh's box.
+static void boundObject(vtPlacedObject* placed)
+{
+    const vtVec3 a = placed->mesh->boundsMin, b = placed->mesh->boundsMax;
+    placed->low = (vtVec3){FLT_MAX, FLT_MAX, FLT_MAX};
+    placed->high = (vtVec3){-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    for (int corner = 0; corner < 8; ++corner) {
+        const vtVec3 p = {corner & 1 ? b.x : a.x, corner & 2 ? b.y : a.y, corner & 4 ? b.z : a.z};
+        const vtVec3 q = vtTransformPoint(&placed->toWorld, p);
+        placed->low =
+            (vtVec3){fminf(placed->low.x, q.x), fminf(placed->low.y, q.y), fminf(placed->low.z, q.z)};
+        placed->high =
+            (vtVec3){fmaxf(placed->high.x, q.x), fmaxf(placed->high.y, q.y), fmaxf(placed->high.z, q.z)};
+    }
+}
+
+static float absorb(float color, float distance)
+{
+    return distance > 0.0f ? -logf(vtClamp(color, 1e-6f, 1.0f)) / distance : 0.0f;
+}
+
+static vtResult placeObject(const vtScene* scene, uint32_t index, vtPlacedObject* placed, vtError* error)
+{
+    const vtObject* object = &scene->objects[index];
+    char name[96];
+    nameObject(scene, index, name, sizeof name);
+    if (object->mesh >= scene->meshCount || object->material >= scene->materialCount) {
+        return vtFail(error, vt_errorGeometry,
+                      "scene: %s has mesh %u and material %u, but there are %u and %u", name, object->mesh,
+                      object->material, scene->meshCount, scene->materialCount);
+    }
+    const vtMaterial* material = &scene->materials[object->material];
+    const vtTransform* t = &object->toWorld;
+    const float scale = determinant(t);
+    const float size = vtLength(vtMakeVec3(t->rows[0])) * vtLength(vtMakeVec3(t->rows[1])) *
+                       vtLength(vtMakeVec3(t->rows[2]));
+    if (!isFinite(t) || !(fabsf(scale) > 1e-6f * size) || !isnormal(scale)) {
+        return vtFail(error, vt_errorGeometry,
+                      "scene: %s is scaled to nothing along an axis; give it a scale other than 0", name);
+    }
+    if (!material->opaque && !(material->ior >= 0.25f && material->ior <= 4.0f)) {
+        return vtFail(error, vt_errorArgument,
+                      "scene: %s has an index of refraction of %g; it must be from 0.25 to 4", name,
+                      (double)material->ior);
+    }
+    const vtVec3 color = material->attenuationColor;
+    const float distance = material->attenuationDistance;
+    *placed = (vtPlacedObject){
+        .mesh = &scene->meshes[object->mesh],
+        .material = material,
+        .meshIndex = object->mesh,
+        .object = index,
+        .toWorld = *t,
+        .toObject = invert(t, scale),
+        .absorption = {absorb(color.x, distance), absorb(color.y, distance), absorb(color.z, distance)},
+        .mirrored = scale < 0.0f,
+    };
+    boundObject(placed);
+    return vt_ok;
+}
+
+/// What objects are sorted by; the last ones only so that no order of the scene's matters.
+typedef struct Rank {
+    bool opaque;
+    int priority;
+    double volume;
+    vtVec3 low, high;
+    float ior;
+    vtPlacedObject placed;
+} Rank;
+
+static int compareNumbers(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+static int compareRanks(const void* left, const void* right)
+{
+    const Rank *a = left, *b = right;
+    const double differences[] = {
+        (double)(a->opaque - b->opaque),
+        compareNumbers((double)b->priority, (double)a->priority),
+        // Instances turned another way have the same volume but for rounding.
+        fabs(a->volume - b->volume) > 1e-4 * (a->volume + b->volume) ? compareNumbers(a->volume, b->volume)
+                                                                     : 0.0,
+        compareNumbers((double)a->low.x, (double)b->low.x),
+        compareNumbers((double)a->low.y, (double)b->low.y),
+        compareNumbers((double)a->low.z, (double)b->low.z),
+        compareNumbers((double)a->high.x, (double)b->high.x),
+        compareNumbers((double)a->high.y, (double)b->high.y),
+        compareNumbers((double)a->high.z, (double)b->high.z),
+        compareNumbers((double)a->ior, (double)b->ior),
+        (double)a->placed.object - (double)b->placed.object,
+    };
+    size_t i = 0;
+    while (i + 1 < sizeof differences / sizeof differences[0] && differences[i] == 0.0) {
+        ++i;
+    }
+    return compareNumbers(differences[i], 0.0);
+}
+
+static bool liesInside(const vtPlacedObject* inner, const vtPlacedObject* outer)
+{
+    return inner->low.x > outer->low.x && inner->low.y > outer->low.y && inner->low.z > outer->low.z &&
+           inner->high.x < outer->high.x && inner->high.y < outer->high.y && inner->high.z < outer->high.z;
+}
+
+static vtResult checkVolumes(const vtScene* scene, const vtPlacedObject* placed, uint32_t glassCount,
+                             vtError* error)
+{
+    for (uint32_t i = 0; i < glassCount; ++i) {
+        for (uint32_t k = 0; k < glassCount && placed[i].mesh->openEdgeCount > 0; ++k) {
+            if (k != i && liesInside(&placed[i], &placed[k])) {
+                char inner[96], outer[96];
+                nameObject(scene, placed[i].object, inner, sizeof inner);
+                nameObject(scene, placed[k].object, outer, sizeof outer);
+                return vtFail(
+                    error, vt_errorGeometry,
+                    "scene: %s has no volume (%u open edges) and lies inside %s, so nothing says what "
+                    "is between them; close it or make it opaque",
+                    inner, placed[i].mesh->openEdgeCount, outer);
+            }
+        }
+    }
+    return vt_ok;
+}
+
+vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error)
+{
+    const uint32_t count = scene->objectCount;
+    *placed = NULL;
+    *glassCount = 0;
+    if (count == 0 || count > VT_MAX_OBJECTS) {
+        return vtFail(error, vt_errorGeometry, "scene: it has %u objects; it must have 1 to %d", count,
+                      VT_MAX_OBJECTS);
+    }
+    Rank* ranks = calloc(count, sizeof *ranks);
+    *placed = calloc(count, sizeof **placed);
+    vtResult result = ranks != NULL && *placed != NULL
+                          ? vt_ok
+                          : vtFail(error, vt_errorMemory, "scene: out of memory for %u objects", count);
+    for (uint32_t i = 0; i < count && result == vt_ok; ++i) {
+        Rank* rank = &ranks[i];
+        result = placeObject(scene, i, &rank->placed, error);
+        if (result == vt_ok) {
+            rank->opaque = rank->placed.material->opaque;
+            rank->priority = scene->objects[i].priority;
+            rank->volume = rank->opaque ? 0.0 : volumeOf(&rank->placed);
+            rank->low = rank->placed.low;
+            rank->high = rank->placed.high;
+            rank->ior = rank->placed.material->ior;
+            *glassCount += !rank->opaque;
+        }
+    }
+    if (result == vt_ok) {
+        qsort(ranks, count, sizeof *ranks, compareRanks);
+        for (uint32_t i = 0; i < count; ++i) {
+            (*placed)[i] = ranks[i].placed;
+        }
+        result = checkVolumes(scene, *placed, *glassCount, error);
+    }
+    free(ranks);
+    if (result != vt_ok) {
+        free(*placed);
+        *placed = NULL;
+    }
+    return result;
+}
+
+vtResult vtValidateScene(const vtScene* scene, vtError* error)
+{
+    vtPlacedObject* placed;
+    uint32_t glassCount;
+    const vtResult result = vtPlaceObjects(scene, &placed, &glassCount, error);
+    free(placed);
+    return result == vt_ok ? vtSucceed(error) : result;
+}
+
+bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point)
+{
+    const vtVec3 low = placed->low, high = placed->high;
+    if (point.x < low.x || point.y < low.y || point.z < low.z || point.x > high.x || point.y > high.y ||
+        point.z > high.z) {
+        return false;
+    }
+    // The winding number, by the triangles' solid angles (van Oosterom & Strackee 1983).
+    const vtMesh* mesh = placed->mesh;
+    const vtVec3 p = vtTransformPoint(&placed->toObject, point);
+    double sum = 0.0;
+    for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
+        const vtVec3 a = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), p);
+        const vtVec3 b = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 1]), p);
+        const vtVec3 c = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 2]), p);
+        const float la = vtLength(a), lb = vtLength(b), lc = vtLength(c);
+        const float across = la * lb * lc + vtDot(a, b) * lc + vtDot(b, c) * la + vtDot(c, a) * lb;
+        sum += 2.0 * (double)atan2f(vtDot(a, vtCross(b, c)), across);
+    }
+    return sum > 2.0 * (double)VT_PI; // half of a full turn's 4 pi
+}
+
+void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boundsMax)
+{
+    bool anyGlass = false;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        anyGlass = anyGlass || !scene->materials[scene->objects[i].material].opaque;
+    }
+    vtVec3 low = {FLT_MAX, FLT_MAX, FLT_MAX}, high = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtObject* object = &scene->objects[i];
+        if (anyGlass && scene->materials[object->material].opaque) {
+            continue;
+        }
+        vtPlacedObject placed = {.mesh = &scene->meshes[object->mesh], .toWorld = object->toWorld};
+        boundObject(&placed);
+        low = (vtVec3){fminf(low.x, placed.low.x), fminf(low.y, placed.low.y), fminf(low.z, placed.low.z)};
+        high = (vtVec3){fmaxf(high.x, placed.high.x), fmaxf(high.y, placed.high.y),
+                        fmaxf(high.z, placed.high.z)};
+    }
+    *boundsMin = low;
+    *boundsMax = high;
+}

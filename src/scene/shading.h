@@ -1,0 +1,11 @@
+// The light of opaque surfaces, on the CPU. The twin of shaders_es3/shading.glsl.
+#pragma once
+
+#include "scene/lighting.h"
+#include "scene/objects.h"
+
+/// Radiance that leaves an opaque object's surface against the direction of travel I (world, unit): at the
+/// point of `triangle` with weights u and v of its second and third corner. Lit by the environment alone;
+/// nothing casts shadows.
+vtVec3 vtShadeSurface(const vtScene* scene, const vtPlacedObject* object, const vtLighting* lighting,
+                      uint32_t triangle, float u, float v, vtVec3 I);
