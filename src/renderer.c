@@ -137,6 +137,12 @@ vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* e
     return vt_ok;
 }
 
+vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError* error)
+{
+    vtResult result = vtValidateScene(scene, error);
+    return result == vt_ok ? vtRenderer_SetMesh(renderer, &scene->meshes[0], error) : result;
+}
+
 vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error)
 {
     vtResult result = vtPresentPass_SetEnvironment(&renderer->present, &renderer->gl, environment, error);

@@ -133,3 +133,17 @@ extern "C" void vtDestroyModel(vtModel* model)
         *model = vtModel{};
     }
 }
+
+extern "C" vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error)
+{
+    vtModel model;
+    *scene = vtScene{};
+    vtResult result = vtLoadModel(def, &model, error);
+    if (result == vt_ok) {
+        vtMaterial material = vtDefaultMaterial();
+        material.ior = model.ior > 0.0f ? model.ior : material.ior;
+        result = vtCreateMeshScene(&model.mesh, &material, scene, error);
+        vtDestroyModel(&model);
+    }
+    return result;
+}
