@@ -50,7 +50,7 @@
 #define VT_BVH_TRIANGLES_A_ROW 512
 
 // The table of objects (src/gl/scene_buffer.h): RGBA32UI texels, a row of them each. Numbers are the bits of floats.
-#define VT_OBJECT_TEXELS 16
+#define VT_OBJECT_TEXELS 19
 #define VT_OBJECT_LAYERS 0    // four: rows of the matrix from the world to its layers, whose coordinates run from 0 to 1
 #define VT_OBJECT_TRANSFORM 4 // three: rows of the matrix from the world to its own coordinates
 #define VT_OBJECT_EXTENT 7    // of its cube along the axes, own units; its box's diagonal, world
@@ -62,6 +62,9 @@
 #define VT_OBJECT_EMISSIVE 13 // light of its own; 0
 #define VT_OBJECT_IMAGES 14   // base colour and metallic-roughness image, or VT_NO_TRIANGLE; number of its first triangle; 0
 #define VT_OBJECT_FRUSTUM 15  // layered: tangents of its layers' frustum, left, bottom, right, top
+#define VT_OBJECT_DEPTHS 16   // layered: of that frustum: near, far, 1 / (far - near); 0
+#define VT_OBJECT_OWN_LOW 17  // box of its mesh, own coordinates; 0
+#define VT_OBJECT_OWN_HIGH 18
 
 // Attribute records: three texels a triangle, one a corner: texture coordinates (bits of floats), colour (three
 // halves); as many triangles a row as triangle records.

@@ -2,9 +2,9 @@
 int g_reads = 0;
 #define texelFetch(s, p, l) (++g_reads, texelFetch(s, p, l))
 
-void writeCountedPath(vec3 direction, int status, int events, bool reflected)
+void writeCountedPath(Path p, int status)
 {
-    writePath(direction, status, events, reflected);
+    writePath(p, status);
     o_path.w |= uint(min(g_reads, VT_MAX_READS)) << VT_PATH_READS_SHIFT;
 }
 #define writePath writeCountedPath

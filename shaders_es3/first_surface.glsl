@@ -1,19 +1,23 @@
 // The surface that a pixel sees first, exact from rasterisation.
 uniform usampler2D u_surface;
 
-struct SurfaceHit {
-    vec3 position; // world
-    vec3 normal;   // outward, interpolated
-    vec3 flatNormal;
-};
-
-// `direction` is the eye ray's. Only pixels that see glass are drawn (src/passes/refract.c).
+// `direction` is the eye ray's. Only pixels that see glass or something opaque are drawn (src/passes/refract.c).
 SurfaceHit firstSurface(out vec3 direction)
 {
     uvec4 surface = texelFetch(u_surface, ivec2(gl_FragCoord.xy), 0);
+    if (int(surface.w) > u_scene.x) {
+        discard; // something opaque: passes/shade.c
+    }
     float depth = uintBitsToFloat(surface.z);
     vec2 tangent = pictureTangent(gl_FragCoord.xy);
     direction = cameraDirection(tangent);
     return SurfaceHit(u_eye.xyz + vec3(tangent * depth, depth) * mat3(u_worldToCamera), unpackNormal(surface.x),
-                      unpackNormal(surface.y));
+                      unpackNormal(surface.y), int(surface.w) - 1);
+}
+
+// What the eye is within, as far as the first surface tells: seen from behind, it is that surface's object.
+uvec4 mediaAtEye(SurfaceHit hit, vec3 direction)
+{
+    bool isWithin = dot(hit.flatNormal, direction) > 0.0;
+    return uvec4(isWithin ? uint(hit.object + 1) : 0u, 0u, 0u, 0u);
 }

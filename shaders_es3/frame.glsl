@@ -7,15 +7,14 @@ layout(std140) uniform Frame
     vec4 u_layerFrustum;
     vec4 u_pictureDepth; // near, far, 1 / (far - near), 0
     vec4 u_layerDepth;
-    vec4 u_boundsMin; // the object's box, world
+    vec4 u_boundsMin; // the box of all glass, world
     vec4 u_boundsMax;
-    vec4 u_optics;   // index of refraction, transmittance, exposure factor, samples so far
+    vec4 u_optics;   // index of refraction (kay-thickness), transmittance, exposure factor, samples so far
     vec4 u_kay;      // largest and smallest transmittance, power, wall thickness
     ivec4 u_search;  // layers, linear steps, binary steps, events
     ivec4 u_size;    // picture width, height, layer width, height
-    mat4 u_cubeMatrix; // world to the layered depth cube, whose coordinates run from 0 to 1
-    vec4 u_cubeExtent; // of the object along the cube's axes, world; its diagonal
-    ivec4 u_cube;      // texels a side, layers, axes (3; 1: from the eye), highest level of the pyramid
+    ivec4 u_cube;    // texels a side, layers, axes (3; 1: from the eye), highest level of the pyramid
+    ivec4 u_scene;   // objects of glass, objects, Fresnel reflection, the technique finds what is opaque itself
     ivec4 u_output;  // vtOutput, layer, vtEnvironmentKind, transparent background
 };
 

@@ -2,11 +2,12 @@
 // whose surfaces it bounds. Level k: the four texels below it.
 #ifdef FIRST_LEVEL
 uniform usampler2DArray u_cubeSurfaces;
-uniform int u_axis;
+uniform int u_opaque; // 1: surfaces bound no inside
+uniform int u_side; // of all: three (or one) for each set of layers
 #else
 uniform usampler2DArray u_intervals;
 uniform int u_level; // the one below
-uniform int u_axis;
+uniform int u_side; // of all: three (or one) for each set of layers
 #endif
 
 layout(location = 0) out uvec4 o_inner;
@@ -30,12 +31,16 @@ void readColumn(ivec2 texel, out vec4 inner, out vec4 outer)
     float start = 0.0;
     int groups = (u_cube.y + 3) / 4;
     for (int group = 0; group < groups; ++group) {
-        uvec4 surfaces = texelFetch(u_cubeSurfaces, ivec3(texel, u_axis * groups + group), 0);
+        uvec4 surfaces = texelFetch(u_cubeSurfaces, ivec3(texel, u_side * groups + group), 0);
         for (int i = 0; i < 4; ++i) {
             if (surfaces[i] == VT_CUBE_NONE) {
                 continue;
             }
             float depth = float(surfaces[i] >> 1);
+            if (u_opaque != 0) { // a sheet: nothing is known but where its first and last surface lie
+                u = addInterval(u, vec2(max(depth - MARGIN, 0.0), depth + MARGIN));
+                continue;
+            }
             bool leaving = (surfaces[i] & 1u) != 0u;
             if (inside) {
                 inner = keepLongest(inner, vec2(start + MARGIN, depth - MARGIN));
@@ -81,6 +86,10 @@ void main()
             o_column = uint(i);
         }
     }
+    if (u_opaque != 0) { // what joins the columns' surfaces lies anywhere between them
+        outer = closeGap(outer);
+        near = closeGap(near);
+    }
     o_inner = uvec4(inner);
     o_outer = uvec4(outer);
     o_near = uvec4(near);
@@ -91,8 +100,8 @@ void main()
     vec4 inner = vec4(0.0, NONE, NONE, 0.0), outer = NO_OUTER;
     for (int i = 0; i < 4; ++i) {
         ivec2 below = tileTexel(2 * ivec2(gl_FragCoord.xy) + ivec2(i & 1, i >> 1), u_level);
-        inner = meetInner(inner, vec4(texelFetch(u_intervals, ivec3(below, 3 * u_axis), 0)));
-        outer = joinOuter(outer, vec4(texelFetch(u_intervals, ivec3(below, 3 * u_axis + 1), 0)));
+        inner = meetInner(inner, vec4(texelFetch(u_intervals, ivec3(below, 3 * u_side), 0)));
+        outer = joinOuter(outer, vec4(texelFetch(u_intervals, ivec3(below, 3 * u_side + 1), 0)));
     }
     o_inner = uvec4(inner);
     o_outer = uvec4(outer);

@@ -72,3 +72,9 @@ vec4 joinOuter(vec4 a, vec4 b)
     u = addInterval(u, crossed || first.z < second.z ? second.zw : first.zw);
     return unionIntervals(u);
 }
+
+// Both intervals and what lies between them.
+vec4 closeGap(vec4 outer)
+{
+    return outer.z < NONE ? vec4(outer.x, outer.w, NONE, NONE) : outer;
+}

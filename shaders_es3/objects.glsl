@@ -1,6 +1,13 @@
 // The scene's objects, a row of texels each: src/gl/scene_buffer.h. Glass by falling precedence, then what is opaque.
 uniform usampler2D u_objects;
 
+struct SurfaceHit {
+    vec3 position; // world
+    vec3 normal;   // outward, interpolated
+    vec3 flatNormal;
+    int object;
+};
+
 uvec4 objectBits(int object, int part)
 {
     return texelFetch(u_objects, ivec2(part, object), 0);
@@ -29,4 +36,17 @@ vec3 normalToWorld(int object, vec3 n)
     return normalize(n.x * objectNumbers(object, VT_OBJECT_TRANSFORM).xyz +
                      n.y * objectNumbers(object, VT_OBJECT_TRANSFORM + 1).xyz +
                      n.z * objectNumbers(object, VT_OBJECT_TRANSFORM + 2).xyz);
+}
+
+const float NOWHERE = 1e30; // farther than anything
+
+// Does a ray come into the object's box before `farthest`?
+bool entersBox(int object, vec3 origin, vec3 direction, float farthest)
+{
+    vec3 inverse = 1.0 / direction; // infinite where it is parallel to a side
+    vec3 a = (objectNumbers(object, VT_OBJECT_LOW).xyz - origin) * inverse;
+    vec3 b = (objectNumbers(object, VT_OBJECT_HIGH).xyz - origin) * inverse;
+    vec3 enters = min(a, b), leaves = max(a, b);
+    float enter = max(max(enters.x, enters.y), enters.z), leave = min(min(leaves.x, leaves.y), leaves.z);
+    return enter <= min(leave, farthest) && leave >= 0.0;
 }

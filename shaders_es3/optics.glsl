@@ -22,23 +22,15 @@ float fresnel(float c, float eta)
     return k <= 0.0 ? 1.0 : 0.5 * (s * s + p * p);
 }
 
-// One event of a path: the ray of direction I meets a surface of outward normals N (interpolated) and G
-// (of the triangle), inside the glass or not. Gives the new direction and keeps `inside` true to it.
-// Where the interpolated normal would send the ray through the wrong side, the triangle's is taken.
-vec3 meetSurface(vec3 I, vec3 N, vec3 G, float ior, inout bool inside, out bool reflected)
+// A path of direction I meets an interface of normals N (interpolated) and G (of the triangle), both against it.
+// Where the interpolated normal would send the ray through the wrong side, the triangle's is taken, and N is it.
+vec3 meetInterface(vec3 I, inout vec3 N, vec3 G, float eta, out bool reflected)
 {
-    float eta = inside ? ior : 1.0 / ior;
-    if (inside) {
-        N = -N;
-        G = -G;
-    }
     vec3 T = bend(I, N, eta, reflected);
     float side = dot(T, G);
     if (dot(N, I) >= 0.0 || (reflected ? side <= 0.0 : side >= 0.0)) {
         T = bend(I, G, eta, reflected);
-    }
-    if (!reflected) {
-        inside = !inside;
+        N = G;
     }
     return T;
 }

@@ -1,4 +1,6 @@
-// From paths to a picture of one sample a pixel. Also the views for analysis.
+// From light to a picture of one sample a pixel. Also the views for analysis.
+uniform usampler2D u_paths;
+uniform usampler2D u_radiance;
 uniform usampler2DArray u_layerDepths;
 uniform usampler2DArray u_layerNormals;
 
@@ -35,9 +37,15 @@ vec3 layerColor()
 
 void main()
 {
-    uvec4 path = texelFetch(u_paths, ivec2(gl_FragCoord.xy), 0);
-    vec3 color = u_output.x == VT_OUTPUT_PICTURE    ? linearToSrgb(pictureLight(path))
-                 : u_output.x == VT_OUTPUT_ANALYSIS ? analysisColor(path)
-                                                    : layerColor();
-    o_color = u_output.x <= VT_OUTPUT_ANALYSIS && seesThrough(path) ? vec4(0.0) : vec4(color, 1.0);
+    uvec2 bits = texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0).rg;
+    vec4 light = vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
+    if (u_output.x == VT_OUTPUT_PICTURE) {
+        o_color = vec4(linearToSrgb(light.rgb), light.a);
+    } else if (u_output.x == VT_OUTPUT_ANALYSIS) {
+        uvec4 path = texelFetch(u_paths, ivec2(gl_FragCoord.xy), 0);
+        bool isClear = u_output.w != 0 && int(path.w) == VT_PATH_BACKGROUND;
+        o_color = isClear ? vec4(0.0) : vec4(analysisColor(path), 1.0);
+    } else {
+        o_color = vec4(layerColor(), 1.0);
+    }
 }

@@ -1,26 +1,28 @@
-// Follows the path of each pixel that sees glass, event by event, until it has left the object for good.
+// Follows the path of each pixel that sees glass, event by event, until it has left the one object for good. The
+// hierarchy's triangles, and so the search, are in the object's coordinates.
 void main()
 {
-    vec3 direction;
-    SurfaceHit hit = firstSurface(direction);
-    bool inside = dot(hit.flatNormal, direction) > 0.0; // an eye within the glass sees its back faces
-    bool anyReflected = false;
+    vec3 view;
+    SurfaceHit hit = firstSurface(view);
+    Path p = startPath(hit.position, view);
+    uvec4 media = mediaAtEye(hit, view);
+    absorb(p, media, length(hit.position - u_eye.xyz));
+    float nearest = 1e-5 * objectNumbers(0, VT_OBJECT_EXTENT).w;
     int status = VT_PATH_EXITED;
-    int events = 0;
-    float nearest = 1e-5 * length(u_boundsMax.xyz - u_boundsMin.xyz);
     while (true) {
-        bool reflected;
-        direction = meetSurface(direction, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
-        anyReflected = anyReflected || reflected;
-        ++events;
-        bool last = events >= u_search.w;
+        crossSurface(p, media, hit.normal, hit.flatNormal, 0, -1);
+        bool inside = holds(media, 1u);
+        bool last = p.events >= u_search.w;
         TriangleHit meeting;
-        bool found = !(inside && last) && searchBvh(hit.position, direction, inside, nearest, meeting);
+        bool found = !(inside && last) && searchBvh(toObject(0, vec4(p.position, 1.0)), toObject(0, vec4(p.direction, 0.0)),
+                                                    inside, nearest, meeting);
         if (!found || last) {
             status = inside || found ? VT_PATH_LOST : VT_PATH_EXITED;
             break;
         }
-        hit = surfaceAt(meeting);
+        absorb(p, media, meeting.distance);
+        p.position += meeting.distance * p.direction;
+        hit = surfaceAt(meeting, p.position);
     }
-    writePath(direction, status, events, anyReflected);
+    writePath(p, status);
 }

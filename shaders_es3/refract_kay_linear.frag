@@ -14,9 +14,5 @@ void main()
         through *= u_optics.y;
         ++events;
     }
-    if (events == 0) {
-        writeBackground();
-        return;
-    }
-    writePathLight(view, VT_PATH_EXITED, events, false, through, added);
+    writeBlended(view, events, through, added);
 }

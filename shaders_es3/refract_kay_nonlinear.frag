@@ -15,9 +15,5 @@ void main()
         through *= t;
         ++events;
     }
-    if (events == 0) {
-        writeBackground();
-        return;
-    }
-    writePathLight(view, VT_PATH_EXITED, events, false, through, added);
+    writeBlended(view, events, through, added);
 }

@@ -28,10 +28,5 @@ void main()
         place += shift / depth * vec2(u_size.xy) / (u_pictureFrustum.zw - u_pictureFrustum.xy);
         ++events;
     }
-    if (events == 0) {
-        writeBackground();
-        return;
-    }
-    vec3 direction = cameraDirection(pictureTangent(place));
-    writePathLight(direction, VT_PATH_EXITED, events, false, transmittance, vec3(0.0));
+    writeBlended(cameraDirection(pictureTangent(place)), events, transmittance, vec3(0.0));
 }

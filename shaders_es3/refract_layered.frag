@@ -1,23 +1,23 @@
 // Follows the path of each pixel that sees glass, event by event, until it has left the object for good.
 void main()
 {
-    vec3 direction;
-    SurfaceHit hit = firstSurface(direction);
-    bool inside = dot(hit.flatNormal, direction) > 0.0; // an eye within the glass sees its back faces
-    bool anyReflected = false;
+    vec3 view;
+    SurfaceHit hit = firstSurface(view);
+    Path p = startPath(hit.position, view);
+    uvec4 media = mediaAtEye(hit, view);
+    absorb(p, media, length(hit.position - u_eye.xyz));
     int status = VT_PATH_EXITED;
-    int events = 0;
     while (true) {
-        bool reflected;
-        direction = meetSurface(direction, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
-        anyReflected = anyReflected || reflected;
-        ++events;
-        bool last = events >= u_search.w;
-        bool found = !(inside && last) && searchLayers(hit.position, direction, inside, hit);
+        crossSurface(p, media, hit.normal, hit.flatNormal, hit.object, -1);
+        bool inside = media != uvec4(0u);
+        bool last = p.events >= u_search.w;
+        bool found = !(inside && last) && searchLayers(p.position, p.direction, inside, hit);
         if (!found || last) {
             status = inside || found ? VT_PATH_LOST : VT_PATH_EXITED;
             break;
         }
+        absorb(p, media, length(hit.position - p.position));
+        p.position = hit.position;
     }
-    writePath(direction, status, events, anyReflected);
+    writePath(p, status);
 }

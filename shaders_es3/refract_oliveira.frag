@@ -9,8 +9,10 @@ void main()
 {
     vec3 view;
     SurfaceHit hit = firstSurface(view);
-    bool inside = false, reflected;
-    vec3 T1 = meetSurface(view, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
+    Path p = startPath(hit.position, view);
+    uvec4 media = uvec4(0u);
+    crossSurface(p, media, hit.normal, hit.flatNormal, hit.object, -1);
+    vec3 T1 = p.direction;
     LayerRay ray = makeLayerRay(hit.position, T1);
 
     // E, where the ray reaches the far end (or, turned towards the eye, the near one) of the depth range.
@@ -22,9 +24,9 @@ void main()
     // Linear, to the first point behind the back side or off it.
     float before = 0.0, behind = stride;
     for (int i = 1; i < u_search.y; ++i) {
-        vec3 p = layerPoint(ray, behind);
-        uint stored = backDepth(p.xy);
-        if (stored == VT_DEPTH_NONE || p.z > float(stored)) {
+        vec3 point = layerPoint(ray, behind);
+        uint stored = backDepth(point.xy);
+        if (stored == VT_DEPTH_NONE || point.z > float(stored)) {
             break;
         }
         before = behind;
@@ -32,9 +34,9 @@ void main()
     }
     for (int i = 0; i < u_search.z; ++i) {
         float middle = 0.5 * (before + behind);
-        vec3 p = layerPoint(ray, middle);
-        uint stored = backDepth(p.xy);
-        if (stored == VT_DEPTH_NONE || p.z > float(stored)) {
+        vec3 point = layerPoint(ray, middle);
+        uint stored = backDepth(point.xy);
+        if (stored == VT_DEPTH_NONE || point.z > float(stored)) {
             behind = middle;
         } else {
             before = middle;
@@ -43,10 +45,9 @@ void main()
 
     vec3 N2 = backNormal(layerPoint(ray, before).xy);
     if (dot(N2, N2) == 0.0) {
-        writePath(T1, VT_PATH_LOST, 1, false);
+        writePath(p, VT_PATH_LOST);
         return;
     }
-    bool clamped;
-    vec3 T2 = leaveClamped(T1, dot(N2, T1) < 0.0 ? -N2 : N2, clamped);
-    writePath(T2, VT_PATH_EXITED, 2, clamped);
+    leaveClamped(p, dot(N2, T1) < 0.0 ? -N2 : N2, hit.object, before);
+    writePath(p, VT_PATH_EXITED);
 }

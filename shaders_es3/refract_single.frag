@@ -3,7 +3,8 @@ void main()
 {
     vec3 direction;
     SurfaceHit hit = firstSurface(direction);
-    bool inside = dot(hit.flatNormal, direction) > 0.0, reflected;
-    direction = meetSurface(direction, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
-    writePath(direction, VT_PATH_EXITED, 1, reflected);
+    Path p = startPath(hit.position, direction);
+    uvec4 media = mediaAtEye(hit, direction);
+    crossSurface(p, media, hit.normal, hit.flatNormal, hit.object, -1);
+    writePath(p, VT_PATH_EXITED);
 }

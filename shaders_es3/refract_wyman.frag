@@ -18,8 +18,10 @@ void main()
 {
     vec3 view;
     SurfaceHit hit = firstSurface(view);
-    bool inside = false, reflected;
-    vec3 T1 = meetSurface(view, hit.normal, hit.flatNormal, u_optics.x, inside, reflected);
+    Path p = startPath(hit.position, view);
+    uvec4 media = uvec4(0u);
+    crossSurface(p, media, hit.normal, hit.flatNormal, hit.object, -1);
+    vec3 T1 = p.direction;
 
     // d = (theta_t / theta_i) dV + (1 - theta_t / theta_i) dN
     vec2 here = layerPoint(makeLayerRay(hit.position, T1), 0.0).xy;
@@ -28,8 +30,9 @@ void main()
                            length(u_boundsMax.xyz - u_boundsMin.xyz);
     float incoming = acos(clamp(-dot(view, hit.normal), 0.0, 1.0));
     float refracted = acos(clamp(-dot(T1, hit.normal), 0.0, 1.0));
-    float ratio = incoming > 1e-4 ? refracted / incoming : 1.0 / u_optics.x;
-    vec3 P2 = hit.position + mix(normalDistance, viewDistance, ratio) * T1;
+    float ratio = incoming > 1e-4 ? refracted / incoming : 1.0 / indexOf(uint(hit.object + 1));
+    float distance = mix(normalDistance, viewDistance, ratio);
+    vec3 P2 = hit.position + distance * T1;
 
     // Where P2 misses the silhouette: the normal that faces the side, across the look-at direction L.
     vec2 there = layerPoint(makeLayerRay(P2, T1), 0.0).xy;
@@ -39,7 +42,6 @@ void main()
         N2 = T1 - dot(L, T1) * L;
         N2 = dot(N2, N2) > 0.0 ? normalize(N2) : T1;
     }
-    bool clamped;
-    vec3 T2 = leaveClamped(T1, dot(N2, T1) < 0.0 ? -N2 : N2, clamped);
-    writePath(T2, VT_PATH_EXITED, 2, clamped);
+    leaveClamped(p, dot(N2, T1) < 0.0 ? -N2 : N2, hit.object, distance);
+    writePath(p, VT_PATH_EXITED);
 }

@@ -57,9 +57,10 @@ void meetTriangle(int index, vec3 origin, vec3 direction, bool inside, float nea
 // through. False where there is none.
 bool searchBvh(vec3 origin, vec3 direction, bool inside, float nearest, out TriangleHit hit)
 {
-    vec3 extent = u_boundsMax.xyz - u_boundsMin.xyz;
+    vec3 low = objectNumbers(0, VT_OBJECT_OWN_LOW).xyz;
+    vec3 extent = objectNumbers(0, VT_OBJECT_OWN_HIGH).xyz - low;
     vec3 scale = (VT_BVH_STEPS - 2.0) / max(extent, 1e-4 * length(extent));
-    vec3 boxOrigin = (origin - u_boundsMin.xyz) * scale + 1.0;
+    vec3 boxOrigin = (origin - low) * scale + 1.0;
     // Nothing is parallel to a box's side.
     vec3 boxDirection = direction * scale;
     boxDirection = mix(boxDirection, vec3(1e-6), lessThan(abs(boxDirection), vec3(1e-6)));
@@ -95,15 +96,11 @@ bool searchBvh(vec3 origin, vec3 direction, bool inside, float nearest, out Tria
     return hit.triangle != NOTHING;
 }
 
-SurfaceHit surfaceAt(TriangleHit found)
+SurfaceHit surfaceAt(TriangleHit found, vec3 position)
 {
     uvec4 a = triangleTexel(found.triangle, 0), b = triangleTexel(found.triangle, 1);
     uvec4 c = triangleTexel(found.triangle, 2), n = triangleTexel(found.triangle, 3);
     vec3 A = uintBitsToFloat(a.xyz), B = uintBitsToFloat(b.xyz), C = uintBitsToFloat(c.xyz);
-    vec3 w = vec3(1.0 - found.u - found.v, found.u, found.v);
-    SurfaceHit hit;
-    hit.position = w.x * A + w.y * B + w.z * C;
-    hit.normal = normalize(w.x * unpackNormal(n.x) + w.y * unpackNormal(n.y) + w.z * unpackNormal(n.z));
-    hit.flatNormal = normalize(cross(B - A, C - A));
-    return hit;
+    vec3 normal = (1.0 - found.u - found.v) * unpackNormal(n.x) + found.u * unpackNormal(n.y) + found.v * unpackNormal(n.z);
+    return SurfaceHit(position, normalToWorld(0, normal), normalToWorld(0, cross(B - A, C - A)), 0);
 }

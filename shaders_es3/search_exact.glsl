@@ -37,16 +37,19 @@ const float REACH = 8.0;  // depth beyond the cell up to which a walk may end
 struct CubeRay {
     vec2 origin, direction, inverse;
     float originZ, slopeZ;
-    float end;         // parameter where it leaves the side
+    float start, end;  // parameters where it comes into the side and leaves it
     float perspective; // a distance t in the world is the parameter t / (1 + perspective t)
     bool mirrored;
+    bool isCut; // it ends before it leaves the side
 };
 
-CubeRay makeCubeRay(vec3 origin, vec3 direction, int axis)
+CubeRay makeCubeRay(vec3 origin, vec3 direction, int object, int axis, float farthest)
 {
     // A projective map keeps lines straight, so that one formula serves the cube and layers from the eye.
-    vec4 a = u_cubeMatrix * vec4(origin, 1.0);
-    vec4 b = u_cubeMatrix * vec4(direction, 0.0);
+    mat4 rows = mat4(objectNumbers(object, VT_OBJECT_LAYERS), objectNumbers(object, VT_OBJECT_LAYERS + 1),
+                     objectNumbers(object, VT_OBJECT_LAYERS + 2), objectNumbers(object, VT_OBJECT_LAYERS + 3));
+    vec4 a = vec4(origin, 1.0) * rows;
+    vec4 b = vec4(direction, 0.0) * rows;
     vec3 scale = vec3(vec2(u_cube.x), VT_CUBE_DEPTH);
     vec3 o = alongAxis(a.xyz / a.w, axis) * scale - vec3(0.5, 0.5, 0.0);
     vec3 d = alongAxis((b.xyz * a.w - a.xyz * b.w) / (a.w * a.w), axis) * scale;
@@ -55,24 +58,40 @@ CubeRay makeCubeRay(vec3 origin, vec3 direction, int axis)
     d = mix(d, least, lessThan(abs(d), 0.01 * least));
     vec3 inverse = 1.0 / d;
     vec3 far = vec3(vec2(u_cube.x - 1), VT_CUBE_DEPTH);
-    vec3 leave = (mix(vec3(0.0), far, greaterThan(d, vec3(0.0))) - o) * inverse;
+    bvec3 grows = greaterThan(d, vec3(0.0));
+    vec3 enter = (mix(far, vec3(0.0), grows) - o) * inverse, leave = (mix(vec3(0.0), far, grows) - o) * inverse;
+    float perspective = b.w / a.w;
+    float end = min(leave.x, min(leave.y, leave.z));
+    // Nothing beyond a surface that has been met is looked for.
+    float stretch = 1.0 + perspective * farthest;
+    float limit = stretch > 0.0 ? farthest / stretch : end;
     bool mirrored = d.z < 0.0;
     return CubeRay(o.xy, d.xy, inverse.xy, mirrored ? VT_CUBE_DEPTH - o.z : o.z, abs(d.z),
-                   min(leave.x, min(leave.y, leave.z)), b.w / a.w, mirrored);
+                   max(max(enter.x, max(enter.y, enter.z)), 0.0), min(end, limit), perspective, mirrored, limit < end);
+}
+
+// A world vector in the units of the cube.
+vec3 toLayers(int object, vec3 v)
+{
+    return vec3(dot(objectNumbers(object, VT_OBJECT_LAYERS).xyz, v), dot(objectNumbers(object, VT_OBJECT_LAYERS + 1).xyz, v),
+                dot(objectNumbers(object, VT_OBJECT_LAYERS + 2).xyz, v));
 }
 
 // The axis that the direction is nearest to.
-int mainAxis(vec3 direction)
+int mainAxis(vec3 direction, int object)
 {
-    vec3 d = abs(mat3(u_cubeMatrix) * direction * u_cubeExtent.xyz);
+    vec3 d = abs(toLayers(object, direction) * objectNumbers(object, VT_OBJECT_EXTENT).xyz);
     return u_cube.z == 1 ? 0 : d.x > d.y && d.x > d.z ? 0 : d.y > d.z ? 1 : 2;
 }
 
 // Where a search stands.
 struct Search {
     CubeRay ray;
+    vec3 origin, direction; // in the object's coordinates; as long as in the world
     ivec2 positive; // 1 where columns, rows grow along the ray
-    int axis;
+    int side; // of all: three (or one) for each set of layers
+    bool isOpaque;
+    float nearest; // distance from which surfaces count
     int level; // of the pyramid
     int steps; // left
     ivec2 cell;
@@ -91,28 +110,34 @@ Passage passTile(Search s, ivec2 tile, int level)
     Passage p;
     p.exits = (vec2((tile + s.positive) << level) - s.ray.origin) * s.ray.inverse;
     vec2 enters = (vec2(s.cell + 1 - s.positive) - s.ray.origin) * s.ray.inverse;
-    p.enter = max(max(enters.x, enters.y), 0.0);
+    p.enter = max(max(enters.x, enters.y), s.ray.start);
     p.leave = min(p.exits.x, p.exits.y);
     p.low = s.ray.originZ + p.enter * s.ray.slopeZ;
     p.high = s.ray.originZ + min(p.leave, s.ray.end) * s.ray.slopeZ;
     return p;
 }
 
-Search startSearch(vec3 origin, vec3 direction, int axis)
+// `farthest`: distance in the world beyond which nothing is looked for.
+Search startSearch(vec3 origin, vec3 direction, int object, int axis, float farthest, int steps)
 {
     Search s;
-    s.ray = makeCubeRay(origin, direction, axis);
+    s.ray = makeCubeRay(origin, direction, object, axis, farthest);
+    s.origin = toObject(object, vec4(origin, 1.0));
+    s.direction = toObject(object, vec4(direction, 0.0));
     s.positive = ivec2(greaterThan(s.ray.direction, vec2(0.0)));
-    s.axis = axis;
+    s.side = u_cube.z * int(objectBits(object, VT_OBJECT_LOW).w) + axis;
+    s.isOpaque = isOpaque(object);
     s.level = 0;
-    s.steps = u_search.y;
-    s.cell = clamp(ivec2(floor(s.ray.origin)), ivec2(0), ivec2(u_cube.x - 2));
+    s.steps = steps;
+    s.nearest = 1e-5 * objectNumbers(object, VT_OBJECT_EXTENT).w;
+    s.cell = clamp(ivec2(floor(s.ray.origin + s.ray.start * s.ray.direction)), ivec2(0), ivec2(u_cube.x - 2));
+    s.isOver = s.ray.start >= s.ray.end;
     return s;
 }
 
 vec4 readIntervals(Search s, ivec2 tile, int level, int slice)
 {
-    vec4 b = vec4(texelFetch(u_intervals, ivec3(tileTexel(tile, level), 3 * s.axis + slice), 0));
+    vec4 b = vec4(texelFetch(u_intervals, ivec3(tileTexel(tile, level), 3 * s.side + slice), 0));
     return s.ray.mirrored ? VT_CUBE_DEPTH - b.wzyx : b;
 }
 
@@ -131,7 +156,7 @@ bool fits(vec4 b, float low, float high, float start, bool inside)
 void walkTiles(inout Search s, bool inside)
 {
     float start = s.ray.originZ + (inside ? START_INSIDE : START_OUTSIDE) * VT_CUBE_DEPTH / float(u_cube.x);
-    while (true) {
+    while (!s.isOver) {
         ivec2 tile = s.cell >> s.level;
         vec4 b = readIntervals(s, tile, s.level, inside ? INNER : OUTER);
         Passage p = passTile(s, tile, s.level);
@@ -175,7 +200,7 @@ int nearestSurface(Search s, Passage p, ivec2 texel, float window, uint kind)
     float nearest = 1e9;
     int best = NO_SURFACE;
     for (int group = 0; group < groups; ++group) {
-        uvec4 surfaces = texelFetch(u_cubeSurfaces, ivec3(texel, s.axis * groups + group), 0);
+        uvec4 surfaces = texelFetch(u_cubeSurfaces, ivec3(texel, s.side * groups + group), 0);
         best = surfaces.x == VT_CUBE_NONE && group == 0 ? NO_GLASS : best;
         vec4 depths = vec4(surfaces >> 1u);
         vec4 along = (s.ray.mirrored ? VT_CUBE_DEPTH - depths : depths) - p.low;
@@ -190,26 +215,33 @@ int nearestSurface(Search s, Passage p, ivec2 texel, float window, uint kind)
     return best;
 }
 
+// Where a path meets an object.
+struct Meeting {
+    float distance; // in the world
+    uint triangle;
+};
+
 // Does a triangle near the cell lie in the ray's way? attempt 0: one of the column nearest to the ray, of the
 // kind that the ray looks for; 1: one of the nearest column that has any; 2 to 5: of any kind in the cell's
 // four columns.
-bool tryCell(Search s, Passage p, vec3 direction, bool inside, int attempt, inout SurfaceHit hit, out bool isEmpty)
+bool tryCell(Search s, Passage p, bool inside, int attempt, out Meeting meeting, out bool isEmpty)
 {
     float cellDepth = VT_CUBE_DEPTH / float(u_cube.x);
     bool wide = attempt > 1;
     vec2 middle = s.ray.origin + 0.5 * (p.enter + min(p.leave, s.ray.end)) * s.ray.direction;
-    int column = int(texelFetch(u_cubeColumns, ivec3(s.cell, s.axis), 0).r);
+    int column = int(texelFetch(u_cubeColumns, ivec3(s.cell, s.side), 0).r);
     ivec2 texel = attempt == 0 ? ivec2(floor(middle + 0.5)) : s.cell + ivec2(column & 3, column >> 2) - 1;
     texel = wide ? s.cell + ivec2(attempt & 1, (attempt >> 1) - 1) : texel;
-    uint kind = wide ? ANY : inside != s.ray.mirrored ? LEAVING : ENTERING;
+    uint kind = wide || s.isOpaque ? ANY : inside != s.ray.mirrored ? LEAVING : ENTERING;
     int surface = nearestSurface(s, p, texel, wide ? 1e9 : WINDOW * cellDepth, kind);
     isEmpty = surface == NO_GLASS;
+    meeting = Meeting(0.0, VT_NO_TRIANGLE);
     if (surface < 0) {
         return false;
     }
     int groups = (u_cube.y + 3) / 4;
-    uint triangle = texelFetch(u_cubeTriangles, ivec3(texel, s.axis * groups + surface / 4), 0)[surface % 4];
-    triangle = walkToLine(triangle, hit.position, direction);
+    uint triangle = texelFetch(u_cubeTriangles, ivec3(texel, s.side * groups + surface / 4), 0)[surface % 4];
+    triangle = walkToLine(triangle, s.origin, s.direction);
     if (triangle == VT_NO_TRIANGLE) {
         return false;
     }
@@ -217,5 +249,7 @@ bool tryCell(Search s, Passage p, vec3 direction, bool inside, int attempt, inou
     // From the parameter back to the world; where it has no end there, neither has the walk.
     float stretch = 1.0 - s.ray.perspective * farthest;
     farthest = stretch > 0.0 ? farthest / stretch : 1e30;
-    return meetsTriangle(triangle, direction, inside, 1e-5 * u_cubeExtent.w, farthest, hit);
+    meeting.triangle = triangle;
+    meeting.distance = distanceTo(triangle, s.origin, s.direction, inside, s.isOpaque);
+    return meeting.distance > s.nearest && meeting.distance < farthest;
 }

@@ -69,12 +69,12 @@ SurfaceHit blendTexels(int layer, vec3 origin, vec3 direction, vec3 point, float
         total += weight;
     }
     if (total == 0.0) {
-        return SurfaceHit(origin + t * direction, nearestNormal, nearestFlat);
+        return SurfaceHit(origin + t * direction, nearestNormal, nearestFlat, 0);
     }
     // A plane met at a grazing angle may lie far off: stay within the neighbourhood of the texels.
     float texel = 2.0 * length(origin + t * direction - u_eye.xyz) * (u_layerFrustum.z - u_layerFrustum.x) / float(u_size.z);
     offset = clamp(offset / total, -texel, texel);
-    return SurfaceHit(origin + (t + offset) * direction, normalize(normal), normalize(flatNormal));
+    return SurfaceHit(origin + (t + offset) * direction, normalize(normal), normalize(flatNormal), 0);
 }
 
 // A wall between two columns: its normal runs from that of the surface before to that of the one behind.
@@ -91,6 +91,7 @@ bool wallBetween(vec3 inner, vec3 outer, vec3 direction, bool inside, vec3 posit
     hit.position = position;
     hit.normal = size > 1e-3 ? normal / size : (inside ? direction : -direction);
     hit.flatNormal = hit.normal;
+    hit.object = 0;
     return isWall && facesRightWay(hit.normal, direction, inside);
 }
 

@@ -27,12 +27,23 @@ vec3 backNormal(vec2 position)
     return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0);
 }
 
-// The exit through a back side of outward normal N. Beyond the critical angle it is clamped to it, as Wyman
-// 2005 does: the ray leaves along the surface.
-vec3 leaveClamped(vec3 T, vec3 N, out bool clamped)
+// Takes the path out through a back side of outward normal N, after `distance` in glass of that object. Beyond the
+// critical angle it is clamped to it, as Wyman 2005 does: the ray leaves along the surface.
+void leaveClamped(inout Path p, vec3 N, int object, float distance)
 {
+    absorb(p, uvec4(uint(object + 1), uvec3(0u)), distance);
+    vec3 T = p.direction;
+    float eta = indexOf(uint(object + 1));
     float c = -dot(N, T);
-    float k = 1.0 - u_optics.x * u_optics.x * (1.0 - c * c);
-    clamped = k < 0.0;
-    return normalize(u_optics.x * T + (u_optics.x * c + sqrt(max(k, 0.0))) * N);
+    float k = 1.0 - eta * eta * (1.0 - c * c);
+    p.direction = normalize(eta * T + (eta * c + sqrt(max(k, 0.0))) * N);
+    p.position += distance * T;
+    p.reflected = k < 0.0;
+    ++p.events;
+    if (u_scene.z != 0) {
+        float F = fresnel(abs(c), eta);
+        setAside(p, reflect(T, N), F);
+        p.transmittance *= 1.0 - F;
+    }
+    p.transmittance *= objectNumbers(object, VT_OBJECT_COLOR).rgb;
 }

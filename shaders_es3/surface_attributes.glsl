@@ -1,4 +1,6 @@
 // What every drawing of the mesh stores of a surface point.
+uniform int u_mirrored; // 1: the object is, so that its front faces run clockwise
+
 in vec3 v_camera;
 in vec3 v_normal;
 
@@ -9,7 +11,8 @@ uvec2 surfaceNormals()
     vec3 flatNormal = cross(dFdx(v_camera), dFdy(v_camera));
     flatNormal = flatNormal * mat3(u_worldToCamera);
     vec3 towardsEye = -(v_camera * mat3(u_worldToCamera));
-    bool turn = (dot(flatNormal, towardsEye) < 0.0) == gl_FrontFacing;
+    bool isFront = gl_FrontFacing != (u_mirrored != 0);
+    bool turn = (dot(flatNormal, towardsEye) < 0.0) == isFront;
     flatNormal = turn ? -flatNormal : flatNormal;
 
     float size = dot(flatNormal, flatNormal);

@@ -41,22 +41,33 @@ uint walkToLine(uint triangle, vec3 origin, vec3 direction)
     return triangle;
 }
 
-// Does the ray meet the triangle that its line passes through? From the right side (inside the glass it leaves
-// through triangles, outside it enters), farther than `nearest` and before `farthest`.
-bool meetsTriangle(uint triangle, vec3 direction, bool inside, float nearest, float farthest, inout SurfaceHit hit)
+// Distance along a ray to the triangle that its line passes through, in units of its direction; -1 where it comes
+// from the wrong side: inside the glass it leaves through triangles, outside it enters.
+float distanceTo(uint triangle, vec3 origin, vec3 direction, bool inside, bool fromBothSides)
 {
-    Corners t = triangleCorners(triangle, hit.position);
+    Corners t = triangleCorners(triangle, origin);
     vec3 w = edgeVolumes(t, direction);
     float sum = w.x + w.y + w.z;
-    w /= sum;
-    vec3 way = w.x * t.A + w.y * t.B + w.z * t.C;
-    float distance = dot(way, direction);
-    if ((sum > 0.0) != inside || sum == 0.0 || distance <= nearest || distance >= farthest) {
-        return false;
-    }
+    vec3 way = (w.x * t.A + w.y * t.B + w.z * t.C) / sum;
+    bool isMet = sum != 0.0 && ((sum > 0.0) == inside || fromBothSides);
+    return isMet ? dot(way, direction) / dot(direction, direction) : -1.0;
+}
+
+// Weights of the corners where the ray's line passes through the triangle.
+vec3 cornerWeights(uint triangle, vec3 origin, vec3 direction)
+{
+    vec3 w = edgeVolumes(triangleCorners(triangle, origin), direction);
+    return w / (w.x + w.y + w.z);
+}
+
+// The surface of an object of glass where the ray (world) passes through its triangle.
+SurfaceHit surfaceAt(int object, uint triangle, vec3 position, vec3 direction)
+{
+    vec3 origin = toObject(object, vec4(position, 1.0));
+    Corners t = triangleCorners(triangle, origin);
+    vec3 w = edgeVolumes(t, toObject(object, vec4(direction, 0.0)));
+    w /= w.x + w.y + w.z;
     uvec3 n = triangleTexel(triangle, 3).xyz;
-    hit.position += way;
-    hit.normal = normalize(w.x * unpackNormal(n.x) + w.y * unpackNormal(n.y) + w.z * unpackNormal(n.z));
-    hit.flatNormal = normalize(cross(t.B - t.A, t.C - t.A));
-    return true;
+    vec3 normal = w.x * unpackNormal(n.x) + w.y * unpackNormal(n.y) + w.z * unpackNormal(n.z);
+    return SurfaceHit(position, normalToWorld(object, normal), normalToWorld(object, cross(t.B - t.A, t.C - t.A)), object);
 }

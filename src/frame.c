@@ -41,6 +41,12 @@ vtFrame vtResolveFrame(const vtFrame* frame)
     return resolved;
 }
 
+int vtFrame_CubeLayers(const vtFrame* frame)
+{
+    const vtFrame resolved = vtResolveFrame(frame);
+    return vtTechnique_Row(frame->technique)->cube ? resolved.layers : presets[frame->preset].exactLayers;
+}
+
 size_t vtFrame_CubeBytes(const vtFrame* frame)
 {
     const vtFrame resolved = vtResolveFrame(frame);
@@ -53,7 +59,6 @@ vtFrame vtDefaultFrame(void)
         .view = {.eye = {0.36f, 0.3f, 3.05f}, .target = {0.0f, 0.0f, 0.0f}, .fovY = 45.0f},
         .technique = vt_techniqueExact,
         .preset = vt_presetMedium,
-        .ior = 1.5f,
         .fresnel = true,
         .transmittance = 0.8f,
         .maxTransmittance = 0.95f,

@@ -1,7 +1,6 @@
-// The whole of a frame, in order: surface, peel, merge, refract, present; with several samples a pixel,
-// accumulate in place of present. Each pass reads the targets of
-// those before it and writes its own; offscreen, window and canvas differ only in the framebuffer that
-// present draws to.
+// The whole of a frame, in order: surface, peel, cube, merge, refract, shade, present; with several samples a
+// pixel, accumulate in place of present. Each pass reads the targets of those before it and writes its own;
+// offscreen, window and canvas differ only in the framebuffer that present draws to.
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,16 +8,18 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "gl/bvh_buffer.h"
+#include "gl/scene_buffer.h"
 #include "gl/uniforms.h"
+#include "layout.h"
 #include "passes/accumulate.h"
 #include "passes/cube.h"
 #include "passes/merge.h"
 #include "passes/peel.h"
 #include "passes/present.h"
 #include "passes/refract.h"
+#include "passes/shade.h"
 #include "passes/surface.h"
 #include "scene/camera.h"
-#include "scene/cube.h"
 
 struct vtRenderer {
     vtGL gl;
@@ -29,14 +30,13 @@ struct vtRenderer {
     vtMergePass merge;
     vtCubePass cube;
     vtRefractPass refract;
+    vtShadePass shade;
     vtPresentPass present;
     vtAccumulatePass accumulate;
     // The scene.
-    vtMeshBuffer mesh;
-    vtVec3 boundsMin, boundsMax;
-    vtCubeFrame cubeFrame;
-    bool cubeDrawn;  // of this mesh
-    vtBvhBuffer bvh; // of this mesh, once `bvh` has been drawn
+    vtSceneBuffer scene;
+    vtLayout layout; // what the cubes hold
+    vtBvhBuffer bvh; // of the one mesh, once `bvh` has been drawn
     vtEnvironmentKind environment;
     // What a frame has to agree with to go on with the samples of the one before.
     vtFrameUniforms uniforms; // of the pixel's centre
@@ -60,6 +60,9 @@ static vtResult createPasses(vtRenderer* renderer, vtError* error)
     }
     if (result == vt_ok) {
         result = vtCubePass_Create(&renderer->cube, gl, error);
+    }
+    if (result == vt_ok) {
+        result = vtShadePass_Create(&renderer->shade, gl, error);
     }
     if (result == vt_ok) {
         result = vtPresentPass_Create(&renderer->present, gl, error);
@@ -108,9 +111,11 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtMergePass_Destroy(&renderer->merge, gl);
     vtCubePass_Destroy(&renderer->cube, gl);
     vtRefractPass_Destroy(&renderer->refract, gl);
+    vtShadePass_Destroy(&renderer->shade, gl);
     vtPresentPass_Destroy(&renderer->present, gl);
     vtAccumulatePass_Destroy(&renderer->accumulate, gl);
-    vtMeshBuffer_Destroy(&renderer->mesh, gl);
+    vtSceneBuffer_Destroy(&renderer->scene, gl);
+    vtDestroyLayout(&renderer->layout);
     vtBvhBuffer_Destroy(&renderer->bvh, gl);
     vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
     vtTexture_Destroy(&renderer->image, gl);
@@ -119,33 +124,38 @@ void vtDestroyRenderer(vtRenderer* renderer)
     free(renderer);
 }
 
-vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error)
+vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError* error)
 {
-    vtMeshBuffer fresh;
-    vtResult result = vtMeshBuffer_Create(&fresh, &renderer->gl, mesh, error);
+    vtSceneBuffer fresh;
+    vtResult result = vtSceneBuffer_Create(&fresh, &renderer->gl, scene, error);
     if (result != vt_ok) {
         return result;
     }
-    vtMeshBuffer_Destroy(&renderer->mesh, &renderer->gl);
-    renderer->mesh = fresh;
+    vtSceneBuffer_Destroy(&renderer->scene, &renderer->gl);
+    renderer->scene = fresh;
     renderer->sampleEnd = 0;
-    renderer->boundsMin = mesh->boundsMin;
-    renderer->boundsMax = mesh->boundsMax;
-    renderer->cubeFrame = vtFitCube(mesh);
-    renderer->cubeDrawn = false;
+    vtDestroyLayout(&renderer->layout);
     vtBvhBuffer_Destroy(&renderer->bvh, &renderer->gl);
-    return vt_ok;
+    return vtSucceed(error);
 }
 
-vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError* error)
+vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error)
 {
-    vtResult result = vtValidateScene(scene, error);
-    return result == vt_ok ? vtRenderer_SetMesh(renderer, &scene->meshes[0], error) : result;
+    vtMesh borrowed = *mesh;
+    vtMaterial material = vtDefaultMaterial();
+    vtObject object = {.toWorld = vtIdentityTransform()};
+    const vtScene scene = {.meshes = &borrowed,
+                           .materials = &material,
+                           .objects = &object,
+                           .meshCount = 1,
+                           .materialCount = 1,
+                           .objectCount = 1};
+    return vtRenderer_SetScene(renderer, &scene, error);
 }
 
 vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error)
 {
-    vtResult result = vtPresentPass_SetEnvironment(&renderer->present, &renderer->gl, environment, error);
+    vtResult result = vtShadePass_SetEnvironment(&renderer->shade, &renderer->gl, environment, error);
     if (result == vt_ok) {
         renderer->environment = environment->kind;
         renderer->sampleEnd = 0;
@@ -200,46 +210,16 @@ static void setCamera(vtFrameUniforms* uniforms, const vtView* view)
     setVec4(uniforms->eye, camera.eye.x, camera.eye.y, camera.eye.z, 1.0f);
 }
 
-/// World coordinates to the cube's, 0 to 1, with a border of whole texels around the object.
-static void setCube(vtFrameUniforms* uniforms, const vtFrame* frame, const vtCubeFrame* cube)
-{
-    const float border = 2.5f / (float)frame->cubeSize;
-    const float low[3] = {cube->low.x, cube->low.y, cube->low.z};
-    const float high[3] = {cube->high.x, cube->high.y, cube->high.z};
-    const float diagonal = vtLength(vtSub(cube->high, cube->low));
-    for (int axis = 0; axis < 3; ++axis) {
-        // A flat object has thickness all the same.
-        float extent = fmaxf(high[axis] - low[axis], 1e-4f * diagonal);
-        float scale = (1.0f - 2.0f * border) / extent;
-        uniforms->cubeMatrix[0][axis] = scale * cube->axes[axis].x;
-        uniforms->cubeMatrix[1][axis] = scale * cube->axes[axis].y;
-        uniforms->cubeMatrix[2][axis] = scale * cube->axes[axis].z;
-        uniforms->cubeMatrix[3][axis] = border - scale * low[axis];
-        uniforms->cubeExtent[axis] = extent;
-    }
-    uniforms->cubeMatrix[3][3] = 1.0f;
-    uniforms->cubeExtent[3] = diagonal;
-}
-
-/// World coordinates to those of a frustum, 0 to 1: depth first, as the cube's first axis has it.
-static void setEyeLayers(vtFrameUniforms* uniforms, const vtFrustum* f)
-{
-    const float across = 1.0f / (f->right - f->left), up = 1.0f / (f->top - f->bottom);
-    const float depth = f->far / (f->far - f->near);
-    for (int column = 0; column < 4; ++column) {
-        const float* p = uniforms->worldToCamera[column];
-        uniforms->cubeMatrix[column][1] = across * (p[0] - f->left * p[2]);
-        uniforms->cubeMatrix[column][2] = up * (p[1] - f->bottom * p[2]);
-        uniforms->cubeMatrix[column][0] = depth * (p[2] - f->near * p[3]);
-        uniforms->cubeMatrix[column][3] = p[2];
-    }
-}
-
 static void endStage(const vtFrame* frame, const char* stage)
 {
     if (frame->stageDone != NULL) {
         frame->stageDone(stage, frame->stageData);
     }
+}
+
+static bool hasOpaque(const vtRenderer* renderer)
+{
+    return renderer->scene.objectCount > renderer->scene.glassCount;
 }
 
 static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
@@ -263,31 +243,73 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     if (result == vt_ok && row->merge) {
         result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, layers, error);
     }
-    if (result == vt_ok && row->cube) {
-        bool fromEye = frame->layerSource == vt_layersFromEye, changed;
-        result = vtCubePass_Resize(&renderer->cube, gl, frame->cubeSize, frame->layers, fromEye ? 1 : 3,
-                                   &changed, error);
-        renderer->cubeDrawn = renderer->cubeDrawn && !changed && !fromEye;
-    }
     if (result == vt_ok && drawsFarthest(frame)) {
         result = vtPeelPass_PrepareFarthest(&renderer->peel, gl, error);
     }
     if (result == vt_ok) {
         result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, frame->countReads, error);
     }
+    if (result == vt_ok) {
+        result = vtShadePass_Prepare(&renderer->shade, gl, frame->width, frame->height, hasOpaque(renderer),
+                                     row->surface, error);
+    }
     return result;
+}
+
+/// Layers of meshes that have changed or are not there yet.
+static vtResult drawCubes(vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    vtLayout layout;
+    vtResult result = vtCreateLayout(&renderer->scene, frame, &layout, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    bool changed = false;
+    if (layout.slotCount > 0) {
+        result = vtCubePass_Resize(&renderer->cube, gl, frame->cubeSize, vtFrame_CubeLayers(frame),
+                                   frame->layerSource == vt_layersFromEye ? 1 : 3, layout.slotCount, &changed,
+                                   error);
+    }
+    if (result != vt_ok) {
+        vtDestroyLayout(&layout);
+        return result;
+    }
+    renderer->sampleEnd =
+        vtSceneBuffer_SetTable(&renderer->scene, gl, layout.words) ? 0 : renderer->sampleEnd;
+    // A technique without cubes leaves those of another as they are.
+    const bool isDrawn =
+        !changed && (layout.slotCount == 0 || vtLayout_SameSlots(&layout, &renderer->layout));
+    if (!isDrawn) {
+        gl->BindVertexArray(renderer->emptyVertexArray);
+        for (int slot = 0; slot < layout.slotCount; ++slot) {
+            vtCubePass_Draw(&renderer->cube, gl, &renderer->scene.triangles, slot, &layout.slots[slot]);
+        }
+    }
+    if (layout.slotCount > 0) {
+        vtDestroyLayout(&renderer->layout);
+        renderer->layout = layout;
+    } else {
+        vtDestroyLayout(&layout);
+    }
+    if (!isDrawn) {
+        endStage(frame, "cube");
+    }
+    return vt_ok;
 }
 
 /// Works out the frame's numbers and sizes every target.
 static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtFrameUniforms* uniforms,
                              vtError* error)
 {
-    const vtVec3 low = renderer->boundsMin, high = renderer->boundsMax;
+    const vtSceneBuffer* scene = &renderer->scene;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    const vtVec3 low = scene->glassMin, high = scene->glassMax;
     float aspect = (float)frame->width / (float)frame->height;
-    vtFrustum picture = vtMakePictureFrustum(&frame->view, aspect, low, high);
+    vtFrustum picture = vtMakePictureFrustum(&frame->view, aspect, scene->low, scene->high);
     vtFrustum layers = picture;
     int layerWidth = frame->width, layerHeight = frame->height;
-    if (vtTechnique_Row(frame->technique)->layerSpace == vt_layersOfObject) {
+    if (row->layerSpace == vt_layersOfObject) {
         layers = vtMakeLayerFrustum(&frame->view, low, high);
         chooseLayerSize(frame, &layers, &layerWidth, &layerHeight);
     }
@@ -296,24 +318,21 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtFrame
         return result;
     }
 
-    vtVec3 extent = vtSub(high, low);
-    float wall = frame->wallThickness > 0.0f ? frame->wallThickness
-                                             : 0.06f * fmaxf(extent.x, fmaxf(extent.y, extent.z));
+    const vtVec3 extent = vtSub(high, low);
+    const float wall = frame->wallThickness > 0.0f ? frame->wallThickness
+                                                   : 0.06f * fmaxf(extent.x, fmaxf(extent.y, extent.z));
+    const float ior = frame->ior > 0.0f ? frame->ior : scene->objects[0].material.ior;
     *uniforms = (vtFrameUniforms){
-        .optics = {frame->ior, frame->transmittance, exp2f(frame->exposure)},
+        .optics = {ior, frame->transmittance, exp2f(frame->exposure)},
         .kay = {frame->maxTransmittance, frame->minTransmittance, frame->power, wall},
         .search = {vtFrame_LayerCount(frame), frame->steps, frame->refine, frame->maxEvents},
         .size = {frame->width, frame->height, layerWidth, layerHeight},
-        .cube = {frame->cubeSize, frame->layers, frame->layerSource == vt_layersFromEye ? 1 : 3,
+        .cube = {frame->cubeSize, vtFrame_CubeLayers(frame), frame->layerSource == vt_layersFromEye ? 1 : 3,
                  frame->topLevel},
+        .scene = {(int)scene->glassCount, (int)scene->objectCount, frame->fresnel, row->findsOpaque},
         .output = {frame->output, frame->layer, renderer->environment, frame->transparentBackground},
     };
     setCamera(uniforms, &frame->view);
-    setCube(uniforms, frame, &renderer->cubeFrame);
-    if (frame->layerSource == vt_layersFromEye) {
-        vtFrustum fitted = vtMakeLayerFrustum(&frame->view, low, high);
-        setEyeLayers(uniforms, &fitted);
-    }
     setFrustum(uniforms->pictureFrustum, uniforms->pictureDepth, &picture);
     setFrustum(uniforms->layerFrustum, uniforms->layerDepth, &layers);
     setVec4(uniforms->boundsMin, low.x, low.y, low.z, 0.0f);
@@ -362,47 +381,49 @@ static void resetState(const vtGL* gl)
 /// The hierarchy, where the frame's technique walks one and it is not there.
 static vtResult prepareBvh(vtRenderer* renderer, const vtFrame* frame, vtError* error)
 {
-    vtResult result = vt_ok;
-    if (vtTechnique_Row(frame->technique)->bvh && renderer->bvh.nodes.name == 0) {
-        result = vtBvhBuffer_Create(&renderer->bvh, &renderer->gl, &renderer->mesh, renderer->boundsMin,
-                                    renderer->boundsMax, error);
-        endStage(frame, "bvh");
+    const vtSceneBuffer* scene = &renderer->scene;
+    if (!vtTechnique_Row(frame->technique)->bvh || renderer->bvh.nodes.name != 0) {
+        return vt_ok;
     }
+    if (scene->objectCount != 1) {
+        return vtFail(error, vt_errorArgument,
+                      "technique 'bvh' draws one object; this scene has %u, use exact", scene->objectCount);
+    }
+    const vtObjectBuffer* object = &scene->objects[0];
+    vtResult result = vtBvhBuffer_Create(&renderer->bvh, &renderer->gl, &scene->triangles,
+                                         (uint32_t)scene->meshes[object->mesh].indexCount / 3, object->ownMin,
+                                         object->ownMax, error);
+    endStage(frame, "bvh");
     return result;
 }
 #endif
 
-/// Everything up to the paths, with the uniform block that was uploaded.
+/// Everything up to the light, with the uniform block that was uploaded.
 static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
 {
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     if (row->surface) {
-        vtSurfacePass_Draw(&renderer->surface, gl, &renderer->mesh, row->innerDistances);
+        vtSurfacePass_Draw(&renderer->surface, gl, &renderer->scene, row->innerDistances,
+                           renderer->emptyVertexArray);
         endStage(frame, "surface");
     }
     if (layersToo && drawsFarthest(frame)) {
-        vtPeelPass_DrawFarthest(&renderer->peel, gl, &renderer->mesh);
+        vtPeelPass_DrawFarthest(&renderer->peel, gl, &renderer->scene);
         endStage(frame, "peel");
     } else if (layersToo && row->layers != 0) {
-        vtPeelPass_Draw(&renderer->peel, gl, &renderer->mesh);
+        vtPeelPass_Draw(&renderer->peel, gl, &renderer->scene);
         endStage(frame, "peel");
     }
     gl->BindVertexArray(renderer->emptyVertexArray);
-    const bool fromEye = frame->layerSource == vt_layersFromEye;
-    if (row->cube && (fromEye ? layersToo : !renderer->cubeDrawn)) {
-        vtCubePass_Draw(&renderer->cube, gl, &renderer->mesh);
-        renderer->cubeDrawn = !fromEye;
-        endStage(frame, "cube");
-    }
     if (layersToo && row->merge) {
         vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
         endStage(frame, "merge");
     }
 #ifdef VT_WITH_BVH
     if (row->bvh) { // VT_BVH_SAMPLERS in technique.c
-        vtTexture_Bind(&renderer->bvh.nodes, gl, 10);
-        vtTexture_Bind(&renderer->bvh.triangles, gl, 11);
+        vtTexture_Bind(&renderer->bvh.nodes, gl, 11);
+        vtTexture_Bind(&renderer->bvh.triangles, gl, 12);
     }
 #endif
     vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
@@ -414,10 +435,19 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
                                           .cubeSurfaces = &renderer->cube.surfaces,
                                           .cubeTriangles = &renderer->cube.triangles,
                                           .intervals = &renderer->cube.intervals,
-                                          .triangles = &renderer->mesh.triangles,
+                                          .triangles = &renderer->scene.triangles,
                                           .cubeColumns = &renderer->cube.columns,
+                                          .objects = &renderer->scene.table,
                                           .countReads = frame->countReads});
     endStage(frame, "refract");
+    if (frame->output == vt_outputPicture) {
+        vtShadePass_Draw(&renderer->shade, gl,
+                         &(vtShadeInputs){.paths = &renderer->refract.targets,
+                                          .surface = row->surface ? &renderer->surface.attributes : NULL,
+                                          .scene = &renderer->scene,
+                                          .cube = &renderer->cube});
+        endStage(frame, "shade");
+    }
 }
 
 static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
@@ -426,8 +456,8 @@ static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
     uploadSample(renderer, 0, 1);
     drawPaths(renderer, frame, true);
     vtPresentPass_Draw(&renderer->present, gl,
-                       &(vtPresentInputs){.paths = &renderer->refract.paths,
-                                          .light = &renderer->refract.light,
+                       &(vtPresentInputs){.paths = &renderer->refract.targets.paths,
+                                          .radiance = &renderer->shade.radiance,
                                           .layerDepths = &renderer->peel.depths,
                                           .layerNormals = &renderer->peel.normals},
                        frame->framebuffer, frame->width, frame->height);
@@ -438,8 +468,7 @@ static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
 
 static void addSample(vtRenderer* renderer)
 {
-    vtAccumulatePass_Add(&renderer->accumulate, &renderer->gl, &renderer->refract.paths,
-                         &renderer->refract.light, &renderer->present.environment);
+    vtAccumulatePass_Add(&renderer->accumulate, &renderer->gl, &renderer->shade.radiance);
 }
 
 /// `sampleEnd`: of the frame before, if this one goes on with it, else 0.
@@ -454,8 +483,7 @@ static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
     gl->BindVertexArray(renderer->emptyVertexArray);
     if (sampleEnd == 0) {
         accumulate->count = 0;
-    } else if (accumulate->count == 0) { // sample 0 was drawn straight, and its paths are still there
-        uploadSample(renderer, 0, 1);
+    } else if (accumulate->count == 0) { // sample 0 was drawn straight, and its light is still there
         addSample(renderer);
     }
     bool layersToo = sampleEnd == 0;
@@ -476,7 +504,7 @@ static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
 
 vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* error)
 {
-    assert(renderer->mesh.indexCount > 0 && "set a mesh before drawing");
+    assert(renderer->scene.objectCount > 0 && "set a scene before drawing");
     vtResult result = vtValidateFrame(asked, error);
     if (result != vt_ok) {
         return result;
@@ -485,17 +513,19 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     const vtFrame* frame = &resolved;
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
-    if (row->innerDistances && renderer->mesh.distances == 0) {
-        return vtFail(
-            error, vt_errorArgument,
-            "technique '%s' needs inner distances; call vtComputeInnerDistances before vtRenderer_SetMesh",
-            row->info.id);
+    for (uint32_t i = 0; i < renderer->scene.glassCount && row->innerDistances; ++i) {
+        if (renderer->scene.meshes[renderer->scene.objects[i].mesh].distances == 0) {
+            return vtFail(
+                error, vt_errorArgument,
+                "technique '%s' needs inner distances; call vtComputeInnerDistances for each mesh of glass "
+                "before vtRenderer_SetScene",
+                row->info.id);
+        }
     }
     vtFrameUniforms uniforms;
     const bool sameRest =
         renderer->technique == frame->technique && renderer->backSurface == frame->backSurface;
-    const int sampleEnd = frame->firstSample > 0 && sameRest ? renderer->sampleEnd : 0;
-    renderer->sampleEnd = 0; // should something fail
+    renderer->sampleEnd = frame->firstSample > 0 && sameRest ? renderer->sampleEnd : 0;
     result = prepareFrame(renderer, frame, &uniforms, error);
     if (result != vt_ok) {
         return result;
@@ -513,6 +543,13 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     }
 #endif
     resetState(gl);
+    uploadSample(renderer, 0, 1); // cubes need their sizes
+    result = drawCubes(renderer, frame, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    const int sampleEnd = renderer->sampleEnd;
+    renderer->sampleEnd = 0; // should something fail
     if (frame->output != vt_outputPicture || frame->firstSample + frame->samples == 1) {
         drawStraight(renderer, frame);
     } else {
@@ -569,7 +606,7 @@ vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_
 static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, vtError* error)
 {
     const vtGL* gl = &renderer->gl;
-    const int width = renderer->refract.paths.width, height = renderer->refract.paths.height;
+    const int width = renderer->refract.targets.paths.width, height = renderer->refract.targets.paths.height;
     assert(width > 0 && "draw a frame before reading its directions");
     *paths = malloc(16 * (size_t)width * (size_t)height);
     if (*paths == NULL) {
@@ -583,7 +620,7 @@ static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, vtError* error
 
 vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error)
 {
-    const int width = renderer->refract.paths.width, height = renderer->refract.paths.height;
+    const int width = renderer->refract.targets.paths.width, height = renderer->refract.targets.paths.height;
     uint32_t* paths;
     vtResult result = readPaths(renderer, &paths, error);
     if (result != vt_ok) {
@@ -594,7 +631,7 @@ vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtEr
         float* to = directions + 3 * (size_t)width * (size_t)row;
         for (int column = 0; column < width; ++column, from += 4, to += 3) {
             int state = (int)(from[3] & 255u);
-            if (state == VT_PATH_EXITED) {
+            if (state == VT_PATH_EXITED || (state == VT_PATH_OPAQUE && ((from[3] >> 8) & 255u) > 0)) {
                 memcpy(to, from, 3 * sizeof(float));
             } else {
                 to[0] = to[1] = to[2] = state == VT_PATH_LOST ? 2.0f : 0.0f;
@@ -607,7 +644,7 @@ vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtEr
 
 vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error)
 {
-    const int width = renderer->refract.paths.width, height = renderer->refract.paths.height;
+    const int width = renderer->refract.targets.paths.width, height = renderer->refract.targets.paths.height;
     uint32_t* paths;
     vtResult result = readPaths(renderer, &paths, error);
     if (result != vt_ok) {
@@ -633,11 +670,10 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
         .textureBytes = vtSurfacePass_Bytes(&renderer->surface) + vtPeelPass_Bytes(&renderer->peel) +
                         vtTexture_Bytes(&renderer->merge.depths) + vtCubePass_Bytes(&renderer->cube) +
                         vtTexture_Bytes(&renderer->bvh.nodes) + vtTexture_Bytes(&renderer->bvh.triangles) +
-                        vtTexture_Bytes(&renderer->refract.paths) +
-                        vtTexture_Bytes(&renderer->refract.light) +
-                        vtTexture_Bytes(&renderer->present.environment) +
+                        vtSceneBuffer_TextureBytes(&renderer->scene) +
+                        vtRefractPass_Bytes(&renderer->refract) + vtShadePass_Bytes(&renderer->shade) +
                         vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image),
-        .meshBytes = renderer->mesh.bytes,
+        .meshBytes = renderer->scene.meshBytes,
         .layerWidth = renderer->peel.depths.width,
         .layerHeight = renderer->peel.depths.height,
     };

@@ -11,14 +11,14 @@
 #define VT_REFRACT_SAMPLERS                                                                                  \
     {                                                                                                        \
         "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns"               \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects"  \
     }
 
 // The same with two more, which the renderer binds.
 #define VT_BVH_SAMPLERS                                                                                      \
     {                                                                                                        \
         "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns",              \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
             "u_bvhNodes", "u_bvhTriangles"                                                                   \
     }
 
@@ -35,7 +35,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layerSpace = vt_layersOfPicture,
             .refract = {.name = "kay-linear",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_kay,
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay,
                                      &vtChunk_refract_kay_linear_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
@@ -50,7 +50,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layerSpace = vt_layersOfPicture,
             .refract = {.name = "kay-nonlinear",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_kay, &vtChunk_transparency,
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay, &vtChunk_transparency,
                                      &vtChunk_refract_kay_nonlinear_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
@@ -65,7 +65,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layerSpace = vt_layersOfPicture,
             .refract = {.name = "kay-thickness",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_kay, &vtChunk_transparency,
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay, &vtChunk_transparency,
                                      &vtChunk_refract_kay_thickness_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
@@ -79,8 +79,9 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .surface = true,
             .refract = {.name = "single",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
-                                     &vtChunk_first_surface, &vtChunk_refract_single_frag},
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
+                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
+                                     &vtChunk_refract_single_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueWyman] =
@@ -95,8 +96,9 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layers = 2,
             .refract = {.name = "wyman",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
-                                     &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_second_layer,
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
+                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
+                                     &vtChunk_layer_space, &vtChunk_second_layer,
                                      &vtChunk_refract_wyman_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
@@ -111,8 +113,9 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layers = 2,
             .refract = {.name = "oliveira",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
-                                     &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_second_layer,
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
+                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
+                                     &vtChunk_layer_space, &vtChunk_second_layer,
                                      &vtChunk_refract_oliveira_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
@@ -128,9 +131,10 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .merge = true,
             .refract = {.name = "layered",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
-                                     &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_layers,
-                                     &vtChunk_search_layered, &vtChunk_refract_layered_frag},
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
+                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
+                                     &vtChunk_layer_space, &vtChunk_layers, &vtChunk_search_layered,
+                                     &vtChunk_refract_layered_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueExact] =
@@ -142,11 +146,13 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .refracts = true},
             .surface = true,
             .cube = true,
+            .findsOpaque = true,
             .refract = {.name = "exact",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
-                                     &vtChunk_first_surface, &vtChunk_triangles, &vtChunk_cube,
-                                     &vtChunk_walk_mesh, &vtChunk_search_exact, &vtChunk_refract_exact_frag},
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
+                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
+                                     &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
+                                     &vtChunk_search_exact, &vtChunk_refract_exact_frag},
                         .samplers = VT_REFRACT_SAMPLERS},
         },
 #ifdef VT_WITH_BVH
@@ -162,8 +168,8 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .bvh = true,
             .refract = {.name = "bvh",
                         .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_path, &vtChunk_octahedral, &vtChunk_optics,
-                                     &vtChunk_first_surface,
+                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
+                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
                                      &vtChunk_triangles, &vtChunk_search_bvh, &vtChunk_refract_bvh_frag},
                         .samplers = VT_BVH_SAMPLERS},
         },

@@ -19,9 +19,10 @@ typedef struct vtTechniqueRow {
     bool innerDistances; ///< per-vertex distance inwards, with it
     int layers;          ///< layers peeled: 0, a fixed number or VT_LAYERS_OF_FRAME
     vtLayerSpace layerSpace;
-    bool cube;  ///< layered depth cube, or its like from the eye
-    bool merge; ///< layers merged and gathered four to a texel
-    bool bvh;   ///< hierarchy over the triangles
+    bool cube;        ///< layered depth cube of all glass, or its like from the eye
+    bool findsOpaque; ///< meets what is opaque on its paths
+    bool merge;       ///< layers merged and gathered four to a texel
+    bool bvh;         ///< hierarchy over the triangles
     vtProgramDef refract;
 } vtTechniqueRow;
 
@@ -29,3 +30,6 @@ const vtTechniqueRow* vtTechnique_Row(vtTechnique technique);
 
 /// Layers that the frame's technique peels.
 int vtFrame_LayerCount(const vtFrame* frame);
+
+/// Layers of the cubes: those of the frame, or of its preset where the technique needs none itself.
+int vtFrame_CubeLayers(const vtFrame* frame);

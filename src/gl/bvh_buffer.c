@@ -6,13 +6,12 @@
 #include "scene/bvh_records.h"
 #include "scene/triangles.h"
 
-/// The mesh's triangle records, allocated by malloc.
-static vtResult readTriangles(const vtGL* gl, const vtMeshBuffer* mesh, uint32_t** records, vtError* error)
+/// The triangle records, allocated by malloc.
+static vtResult readTriangles(const vtGL* gl, const vtTexture* texture, uint32_t** records, vtError* error)
 {
-    const vtTexture* texture = &mesh->triangles;
     *records = malloc(vtTexture_Bytes(texture));
     if (*records == NULL) {
-        return vtFail(error, vt_errorMemory, "bvh: out of memory for %d triangles", mesh->indexCount / 3);
+        return vtFail(error, vt_errorMemory, "bvh: out of memory for the triangles");
     }
     GLuint framebuffer = 0;
     vtResult result =
@@ -45,18 +44,17 @@ static vtResult uploadRows(vtTexture* texture, const vtGL* gl, const uint32_t* w
     return vt_ok;
 }
 
-vtResult vtBvhBuffer_Create(vtBvhBuffer* buffer, const vtGL* gl, const vtMeshBuffer* mesh, vtVec3 boundsMin,
-                            vtVec3 boundsMax, vtError* error)
+vtResult vtBvhBuffer_Create(vtBvhBuffer* buffer, const vtGL* gl, const vtTexture* triangles, uint32_t count,
+                            vtVec3 boundsMin, vtVec3 boundsMax, vtError* error)
 {
-    const uint32_t count = (uint32_t)mesh->indexCount / 3;
     *buffer = (vtBvhBuffer){0};
-    uint32_t* triangles = NULL;
+    uint32_t* read = NULL;
     vtBvhRecords records = {0};
-    vtResult result = readTriangles(gl, mesh, &triangles, error);
-    if (result == vt_ok && !vtCreateBvhRecords(triangles, count, boundsMin, boundsMax, &records)) {
+    vtResult result = readTriangles(gl, triangles, &read, error);
+    if (result == vt_ok && !vtCreateBvhRecords(read, count, boundsMin, boundsMax, &records)) {
         result = vtFail(error, vt_errorMemory, "bvh: out of memory for %u triangles", count);
     }
-    free(triangles);
+    free(read);
     if (result == vt_ok) {
         result =
             uploadRows(&buffer->nodes, gl, records.nodes, records.nodeCount, 2, VT_BVH_NODES_A_ROW, error);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gl/mesh_buffer.h"
+#include "gl/target.h"
 
 /// A hierarchy over a mesh's triangles on the GPU (scene/bvh_records.h).
 typedef struct vtBvhBuffer {
@@ -8,8 +8,8 @@ typedef struct vtBvhBuffer {
     vtTexture triangles; ///< RGBA32UI, three texels a triangle, VT_BVH_TRIANGLES_A_ROW triangles a row
 } vtBvhBuffer;
 
-/// Builds it of the triangle records that the mesh buffer holds, which are read back: so nothing of the mesh
-/// has to be kept for a technique that few use. About 3 us a triangle.
-vtResult vtBvhBuffer_Create(vtBvhBuffer* buffer, const vtGL* gl, const vtMeshBuffer* mesh, vtVec3 boundsMin,
-                            vtVec3 boundsMax, vtError* error);
+/// Builds it of the first `count` triangle records of the texture, which are read back: so nothing of the
+/// mesh has to be kept for a technique that few use. About 3 us a triangle.
+vtResult vtBvhBuffer_Create(vtBvhBuffer* buffer, const vtGL* gl, const vtTexture* triangles, uint32_t count,
+                            vtVec3 boundsMin, vtVec3 boundsMax, vtError* error);
 void vtBvhBuffer_Destroy(vtBvhBuffer* buffer, const vtGL* gl);

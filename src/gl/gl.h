@@ -69,6 +69,7 @@
     X(PFNGLTEXSTORAGE3DPROC, TexStorage3D)                                                                   \
     X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                                                 \
     X(PFNGLUNIFORM1IPROC, Uniform1i)                                                                         \
+    X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                                       \
     X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)                                                     \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                       \
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                     \

@@ -1,38 +1,15 @@
 #include "gl/mesh_buffer.h"
 
-#include <stdlib.h>
-
 #include "base/error.h"
-#include "scene/triangles.h"
 
-static vtResult uploadTriangles(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtError* error)
-{
-    const int count = (int)(mesh->indexCount / 3);
-    const int rows = (count + VT_TRIANGLES_A_ROW - 1) / VT_TRIANGLES_A_ROW;
-    GLint largest = 0;
-    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (rows > largest) {
-        return vtFail(error, vt_errorContext,
-                      "mesh: %d triangles are more than this GPU can hold (%d); simplify it", count,
-                      largest * VT_TRIANGLES_A_ROW);
-    }
-    uint32_t* records = vtCreateTriangleRecords(mesh);
-    if (records == NULL) {
-        return vtFail(error, vt_errorMemory, "mesh: out of memory for %d triangles", count);
-    }
-    vtTexture_UploadRecords(&buffer->triangles, gl, records, count, VT_TRIANGLE_WORDS / 4,
-                            VT_TRIANGLES_A_ROW);
-    free(records);
-    buffer->bytes += vtTexture_Bytes(&buffer->triangles);
-    return vt_ok;
-}
-
-vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtError* error)
+vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, uint32_t firstTriangle,
+                             vtError* error)
 {
     size_t attributeBytes = 3 * sizeof(float) * (size_t)mesh->vertexCount;
     size_t indexBytes = sizeof(uint32_t) * (size_t)mesh->indexCount;
     *buffer = (vtMeshBuffer){0};
     buffer->indexCount = (GLsizei)mesh->indexCount;
+    buffer->firstTriangle = firstTriangle;
     buffer->bytes = 2 * attributeBytes + indexBytes;
 
     gl->GenVertexArrays(1, &buffer->vertexArray);
@@ -60,10 +37,7 @@ vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh*
     gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)indexBytes, mesh->indices, GL_STATIC_DRAW);
     gl->BindVertexArray(0);
 
-    vtResult result = uploadTriangles(buffer, gl, mesh, error);
-    if (result == vt_ok) {
-        result = vtCheckGL(gl, "uploading the mesh", error);
-    }
+    vtResult result = vtCheckGL(gl, "uploading the mesh", error);
     if (result != vt_ok) {
         vtMeshBuffer_Destroy(buffer, gl);
     }
@@ -84,7 +58,6 @@ void vtMeshBuffer_Destroy(vtMeshBuffer* buffer, const vtGL* gl)
         gl->DeleteBuffers(1, &buffer->vertices);
         gl->DeleteBuffers(1, &buffer->distances);
         gl->DeleteBuffers(1, &buffer->indices);
-        vtTexture_Destroy(&buffer->triangles, gl);
     }
     *buffer = (vtMeshBuffer){0};
 }

@@ -14,17 +14,16 @@ typedef struct vtFrameUniforms {
     float layerFrustum[4];
     float pictureDepth[4]; ///< near, far, 1 / (far - near), 0
     float layerDepth[4];
-    float boundsMin[4]; ///< the object's box, world
+    float boundsMin[4]; ///< the box of all glass, world
     float boundsMax[4];
-    float optics[4];   ///< index of refraction, transmittance, exposure factor, samples so far
-    float kay[4];      ///< largest and smallest transmittance, power, wall thickness
+    float optics[4]; ///< index of refraction (kay-thickness), transmittance, exposure factor, samples so far
+    float kay[4];    ///< largest and smallest transmittance, power, wall thickness
     int32_t search[4]; ///< layers, linear steps, binary steps, events
     int32_t size[4];   ///< picture width, height, layer width, height
-    float cubeMatrix[4]
-                    [4]; ///< column-major; world to the layered depth cube, whose coordinates run from 0 to 1
-    float cubeExtent[4]; ///< of the object along the cube's axes, world; its diagonal
-    int32_t cube[4];     ///< texels a side, layers, axes (3; 1: from the eye), highest level of the pyramid
-    int32_t output[4];   ///< vtOutput, layer, vtEnvironmentKind, transparent background
+    int32_t cube[4];   ///< texels a side, layers, axes (3; 1: from the eye), highest level of the pyramid
+    int32_t scene[4];  ///< objects of glass, objects, Fresnel reflection, the technique finds what is opaque
+                       ///< itself
+    int32_t output[4]; ///< vtOutput, layer, vtEnvironmentKind, transparent background
 } vtFrameUniforms;
 
-static_assert(sizeof(vtFrameUniforms) == 22 * 16, "vtFrameUniforms must mirror the std140 block");
+static_assert(sizeof(vtFrameUniforms) == 18 * 16, "vtFrameUniforms must mirror the std140 block");

@@ -6,8 +6,8 @@
 static const vtProgramDef addDef = {
     .name = "add sample",
     .vertex = {&vtChunk_screen_vert},
-    .fragment = {&vtChunk_environment, &vtChunk_picture_light, &vtChunk_add_sample_frag},
-    .samplers = {"u_paths", "u_light", "u_environment", "u_sum"},
+    .fragment = {&vtChunk_add_sample_frag},
+    .samplers = {"u_radiance", "u_sum"},
 };
 
 static const vtProgramDef showDef = {
@@ -37,8 +37,7 @@ vtResult vtAccumulatePass_Prepare(vtAccumulatePass* pass, const vtGL* gl, int wi
     return result;
 }
 
-void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* paths,
-                          const vtTexture* light, const vtTexture* environment)
+void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* radiance)
 {
     const vtTexture* before = &pass->sums[pass->latest];
     if (pass->count == 0) {
@@ -50,10 +49,8 @@ void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTextur
     ++pass->count;
     vtBindFramebuffer(gl, pass->framebuffers[pass->latest], before->width, before->height);
     gl->UseProgram(pass->addProgram);
-    vtTexture_Bind(paths, gl, 0);
-    vtTexture_Bind(light, gl, 1);
-    vtTexture_Bind(environment, gl, 2);
-    vtTexture_Bind(before, gl, 3);
+    vtTexture_Bind(radiance, gl, 0);
+    vtTexture_Bind(before, gl, 1);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

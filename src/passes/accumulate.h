@@ -16,9 +16,8 @@ typedef struct vtAccumulatePass {
 /// Compiles and sizes what the other two need; does nothing where all is there.
 vtResult vtAccumulatePass_Prepare(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
                                   vtError* error);
-/// Adds the paths of one sample; the uniform block must be that sample's.
-void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* paths,
-                          const vtTexture* light, const vtTexture* environment);
+/// Adds the light of one sample.
+void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* radiance);
 void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer);
 void vtAccumulatePass_Destroy(vtAccumulatePass* pass, const vtGL* gl);
 size_t vtAccumulatePass_Bytes(const vtAccumulatePass* pass);

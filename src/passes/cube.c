@@ -44,34 +44,47 @@ vtResult vtCubePass_Create(vtCubePass* pass, const vtGL* gl, vtError* error)
     }
     if (result == vt_ok) {
         pass->peelAxis = gl->GetUniformLocation(pass->peelProgram, "u_axis");
-        pass->firstAxis = gl->GetUniformLocation(pass->firstProgram, "u_axis");
-        pass->levelAxis = gl->GetUniformLocation(pass->levelProgram, "u_axis");
+        pass->peelLayers = gl->GetUniformLocation(pass->peelProgram, "u_layers");
+        pass->peelFrom = gl->GetUniformLocation(pass->peelProgram, "u_from");
+        pass->peelFirstTriangle = gl->GetUniformLocation(pass->peelProgram, "u_firstTriangle");
+        pass->firstSide = gl->GetUniformLocation(pass->firstProgram, "u_side");
+        pass->firstOpaque = gl->GetUniformLocation(pass->firstProgram, "u_opaque");
+        pass->levelSide = gl->GetUniformLocation(pass->levelProgram, "u_side");
         pass->levelBelow = gl->GetUniformLocation(pass->levelProgram, "u_level");
     }
     return result;
 }
 
-vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layers, int sides, bool* changed,
-                           vtError* error)
+vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layers, int sides, int slots,
+                           bool* changed, vtError* error)
 {
-    const int groups = (layers + 3) / 4;
-    *changed = pass->layers != layers;
+    const int groups = (layers + 3) / 4, slices = slots * sides;
+    GLint most = 0;
+    gl->GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
+    *changed = false;
+    if (slices * (groups > 3 ? groups : 3) > most) {
+        return vtFail(
+            error, vt_errorContext,
+            "scene: %d different meshes are more than this GPU has room for (%d); join some of them", slots,
+            most / (sides * (groups > 3 ? groups : 3)));
+    }
+    *changed = pass->layers != layers || pass->sides != sides;
     pass->layers = layers;
-    *changed |= vtTexture_Resize(&pass->surfaces, gl, GL_RGBA16UI, size, size, sides * groups);
-    *changed |= vtTexture_Resize(&pass->triangles, gl, GL_RGBA32UI, size, size, sides * groups);
+    pass->sides = sides;
+    *changed |= vtTexture_Resize(&pass->surfaces, gl, GL_RGBA16UI, size, size, slices * groups);
+    *changed |= vtTexture_Resize(&pass->triangles, gl, GL_RGBA32UI, size, size, slices * groups);
     // Half as high again: the levels above the first stand side by side on top of it.
-    *changed |= vtTexture_Resize(&pass->intervals, gl, GL_RGBA16UI, size, size + size / 2, 3 * sides);
+    *changed |= vtTexture_Resize(&pass->intervals, gl, GL_RGBA16UI, size, size + size / 2, 3 * slices);
     for (int i = 0; i < 2; ++i) {
         *changed |= vtTexture_Resize(&pass->depthBuffers[i], gl, GL_DEPTH_COMPONENT32F, size, size, 0);
     }
     for (int i = 0; i < 4; ++i) {
         *changed |= vtTexture_Resize(&pass->scratch[i], gl, i < 3 ? GL_RGBA16UI : GL_R16UI, size, size, 0);
     }
-    *changed |= vtTexture_Resize(&pass->columns, gl, GL_R16UI, size, size, sides);
+    *changed |= vtTexture_Resize(&pass->columns, gl, GL_R16UI, size, size, slices);
     if (!*changed) {
         return vtSucceed(error);
     }
-    vtDestroyFramebuffers(gl, &pass->peelFramebuffers[0][0], 3 * VT_MAX_LAYER_GROUPS * 2);
     vtAttachment scratch[] = {
         {&pass->scratch[0], 0}, {&pass->scratch[1], 0}, {&pass->scratch[2], 0}, {&pass->scratch[3], 0}};
     vtResult result = vtMakeFramebuffer(gl, "cells", scratch, 4, NULL, &pass->firstFramebuffer, error);
@@ -82,27 +95,29 @@ vtResult vtCubePass_Resize(vtCubePass* pass, const vtGL* gl, int size, int layer
         result = vtMakeFramebuffer(gl, "cube start", NULL, 0, &pass->depthBuffers[1], &pass->startFramebuffer,
                                    error);
     }
-    for (int slice = 0; slice < sides * groups; ++slice) {
-        for (int i = 0; i < 2 && result == vt_ok; ++i) {
-            vtAttachment colors[] = {{&pass->surfaces, slice}, {&pass->triangles, slice}};
-            result = vtMakeFramebuffer(gl, "cube", colors, 2, &pass->depthBuffers[i],
-                                       &pass->peelFramebuffers[slice][i], error);
-        }
+    for (int i = 0; i < 2 && result == vt_ok; ++i) {
+        vtAttachment colors[] = {{&pass->surfaces, 0}, {&pass->triangles, 0}};
+        result = vtMakeFramebuffer(gl, "cube", colors, 2, &pass->depthBuffers[i], &pass->peelFramebuffers[i],
+                                   error);
     }
     return result;
 }
 
-static void peelSide(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer* mesh, int side, int groups)
+static void peelSide(const vtCubePass* pass, const vtGL* gl, const vtCubeSlot* what, int slot, int axis)
 {
     const float near = 0.0f, far = 1.0f;
     const GLuint none[4] = {VT_CUBE_NONE, VT_CUBE_NONE, VT_CUBE_NONE, VT_CUBE_NONE};
-    const int size = pass->surfaces.width;
-    gl->Uniform1i(pass->peelAxis, side);
+    const int size = pass->surfaces.width, groups = (pass->layers + 3) / 4;
+    const float along[4] = {what->layers[axis][0], what->layers[axis][1], what->layers[axis][2], 0.0f};
+    gl->Uniform1i(pass->peelAxis, axis);
+    gl->Uniform4fv(pass->peelFrom, 1, what->eye[3] != 0.0f ? what->eye : along);
     vtBindFramebuffer(gl, pass->startFramebuffer, size, size);
     gl->ClearBufferfv(GL_DEPTH, 0, &near);
     for (int layer = 0; layer < pass->layers; ++layer) {
-        int channel = layer % 4;
-        vtBindFramebuffer(gl, pass->peelFramebuffers[side * groups + layer / 4][layer % 2], size, size);
+        const int channel = layer % 4, slice = (slot * pass->sides + axis) * groups + layer / 4;
+        vtBindFramebuffer(gl, pass->peelFramebuffers[layer % 2], size, size);
+        gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, pass->surfaces.name, 0, slice);
+        gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, pass->triangles.name, 0, slice);
         if (channel == 0) {
             gl->ClearBufferuiv(GL_COLOR, 0, none);
             gl->ClearBufferuiv(GL_COLOR, 1, none);
@@ -110,7 +125,7 @@ static void peelSide(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer*
         gl->ClearBufferfv(GL_DEPTH, 0, &far);
         gl->ColorMask(channel == 0, channel == 1, channel == 2, channel == 3);
         vtTexture_Bind(&pass->depthBuffers[(layer + 1) % 2], gl, 1);
-        gl->DrawArrays(GL_TRIANGLES, 0, mesh->indexCount);
+        gl->DrawArrays(GL_TRIANGLES, 0, what->mesh->indexCount);
         gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 }
@@ -129,24 +144,25 @@ static void keepLevel(const vtCubePass* pass, const vtGL* gl, int side, int leve
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
 }
 
-void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer* mesh)
+void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtTexture* triangles, int slot,
+                     const vtCubeSlot* what)
 {
-    const int sides = pass->intervals.layers / 3;
-    const int groups = pass->surfaces.layers / sides;
+    const int size = pass->surfaces.width, firstSide = slot * pass->sides, lastSide = firstSide + pass->sides;
     gl->Enable(GL_DEPTH_TEST);
     gl->UseProgram(pass->peelProgram);
-    vtTexture_Bind(&mesh->triangles, gl, 0);
-    for (int side = 0; side < sides; ++side) {
-        peelSide(pass, gl, mesh, side, groups);
+    gl->Uniform4fv(pass->peelLayers, 4, &what->layers[0][0]);
+    gl->Uniform1i(pass->peelFirstTriangle, (GLint)what->mesh->firstTriangle);
+    vtTexture_Bind(triangles, gl, 0);
+    for (int axis = 0; axis < pass->sides; ++axis) {
+        peelSide(pass, gl, what, slot, axis);
     }
     gl->Disable(GL_DEPTH_TEST);
-
-    const int size = pass->surfaces.width;
     gl->UseProgram(pass->firstProgram);
-    for (int side = 0; side < sides; ++side) {
+    gl->Uniform1i(pass->firstOpaque, what->opaque);
+    for (int side = firstSide; side < lastSide; ++side) {
         vtTexture_Bind(&pass->surfaces, gl, 0);
         vtBindFramebuffer(gl, pass->firstFramebuffer, size, size);
-        gl->Uniform1i(pass->firstAxis, side);
+        gl->Uniform1i(pass->firstSide, side);
         gl->DrawArrays(GL_TRIANGLES, 0, 3);
         keepLevel(pass, gl, side, 0);
         vtTexture_Bind(&pass->columns, gl, 0);
@@ -159,8 +175,8 @@ void vtCubePass_Draw(const vtCubePass* pass, const vtGL* gl, const vtMeshBuffer*
     for (int level = 1; size >> level > 0; ++level) {
         vtBindFramebuffer(gl, pass->levelFramebuffer, size >> level, size >> level);
         gl->Uniform1i(pass->levelBelow, level - 1);
-        for (int side = 0; side < sides; ++side) {
-            gl->Uniform1i(pass->levelAxis, side);
+        for (int side = firstSide; side < lastSide; ++side) {
+            gl->Uniform1i(pass->levelSide, side);
             gl->DrawArrays(GL_TRIANGLES, 0, 3);
             keepLevel(pass, gl, side, level);
         }
@@ -172,7 +188,7 @@ void vtCubePass_Destroy(vtCubePass* pass, const vtGL* gl)
     vtDestroyFramebuffers(gl, &pass->startFramebuffer, 1);
     vtDestroyFramebuffers(gl, &pass->firstFramebuffer, 1);
     vtDestroyFramebuffers(gl, &pass->levelFramebuffer, 1);
-    vtDestroyFramebuffers(gl, &pass->peelFramebuffers[0][0], 3 * VT_MAX_LAYER_GROUPS * 2);
+    vtDestroyFramebuffers(gl, pass->peelFramebuffers, 2);
     vtTexture_Destroy(&pass->surfaces, gl);
     vtTexture_Destroy(&pass->triangles, gl);
     vtTexture_Destroy(&pass->intervals, gl);

@@ -25,7 +25,9 @@ static const vtProgramDef farthestProgramDef = {
 vtResult vtPeelPass_Create(vtPeelPass* pass, const vtGL* gl, vtError* error)
 {
     *pass = (vtPeelPass){0};
-    return vtCreateProgram(gl, &programDef, &pass->program, error);
+    vtResult result = vtCreateProgram(gl, &programDef, &pass->program, error);
+    pass->uniforms = vtFindObjectUniforms(gl, pass->program);
+    return result;
 }
 
 vtResult vtPeelPass_PrepareFarthest(vtPeelPass* pass, const vtGL* gl, vtError* error)
@@ -33,7 +35,9 @@ vtResult vtPeelPass_PrepareFarthest(vtPeelPass* pass, const vtGL* gl, vtError* e
     if (pass->farthestProgram != 0) {
         return vtSucceed(error);
     }
-    return vtCreateProgram(gl, &farthestProgramDef, &pass->farthestProgram, error);
+    vtResult result = vtCreateProgram(gl, &farthestProgramDef, &pass->farthestProgram, error);
+    pass->farthestUniforms = vtFindObjectUniforms(gl, pass->farthestProgram);
+    return result;
 }
 
 vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers,
@@ -59,9 +63,9 @@ vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int heig
     return result;
 }
 
-/// Draws the mesh into one layer, cleared before.
-static void drawLayer(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer* mesh, int layer,
-                      float clearDepth)
+/// Draws all glass into one layer, cleared before.
+static void drawLayer(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
+                      const vtObjectUniforms* uniforms, int layer, float clearDepth)
 {
     const GLuint noNormal[4] = {VT_NO_NORMAL, VT_NO_NORMAL, 0, 0};
     const GLuint noDepth[4] = {VT_DEPTH_NONE, 0, 0, 0};
@@ -69,10 +73,10 @@ static void drawLayer(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer
     gl->ClearBufferfv(GL_DEPTH, 0, &clearDepth);
     gl->ClearBufferuiv(GL_COLOR, 0, noNormal);
     gl->ClearBufferuiv(GL_COLOR, 1, noDepth);
-    vtMeshBuffer_Draw(mesh, gl);
+    vtSceneBuffer_Draw(scene, gl, uniforms, 0, scene->glassCount);
 }
 
-void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer* mesh)
+void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene)
 {
     const float near = 0.0f;
     gl->Enable(GL_DEPTH_TEST);
@@ -84,17 +88,17 @@ void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer*
 
     for (int layer = 0; layer < pass->depths.layers; ++layer) {
         vtTexture_Bind(&pass->depthBuffers[(layer + 1) % 2], gl, 0);
-        drawLayer(pass, gl, mesh, layer, 1.0f);
+        drawLayer(pass, gl, scene, &pass->uniforms, layer, 1.0f);
     }
     gl->Disable(GL_DEPTH_TEST);
 }
 
-void vtPeelPass_DrawFarthest(const vtPeelPass* pass, const vtGL* gl, const vtMeshBuffer* mesh)
+void vtPeelPass_DrawFarthest(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene)
 {
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_GREATER);
     gl->UseProgram(pass->farthestProgram);
-    drawLayer(pass, gl, mesh, 1, 0.0f);
+    drawLayer(pass, gl, scene, &pass->farthestUniforms, 1, 0.0f);
     gl->DepthFunc(GL_LESS);
     gl->Disable(GL_DEPTH_TEST);
 }

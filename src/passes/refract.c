@@ -37,17 +37,20 @@ vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique 
 vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height,
                               const vtTexture* surfaceDepth, vtError* error)
 {
-    bool changed = vtTexture_Resize(&pass->paths, gl, GL_RGBA32UI, width, height, 0);
-    changed |= vtTexture_Resize(&pass->light, gl, GL_RG32UI, width, height, 0);
-    vtAttachment colors[] = {{&pass->paths, 0}, {&pass->light, 0}};
+    vtPathTargets* t = &pass->targets;
+    bool changed = vtTexture_Resize(&t->paths, gl, GL_RGBA32UI, width, height, 0);
+    changed |= vtTexture_Resize(&t->ends, gl, GL_RGBA32UI, width, height, 0);
+    changed |= vtTexture_Resize(&t->lights, gl, GL_RGBA32UI, width, height, 0);
+    changed |= vtTexture_Resize(&t->asides, gl, GL_RGBA32UI, width, height, 0);
+    vtAttachment colors[] = {{&t->paths, 0}, {&t->ends, 0}, {&t->lights, 0}, {&t->asides, 0}};
     vtResult result = vtSucceed(error);
     if (changed) {
         vtDestroyFramebuffers(gl, &pass->glassFramebuffer, 1);
-        result = vtMakeFramebuffer(gl, "refract", colors, 2, NULL, &pass->framebuffer, error);
+        result = vtMakeFramebuffer(gl, "refract", colors, 4, NULL, &pass->framebuffer, error);
     }
     if (result == vt_ok && surfaceDepth != NULL && pass->glassFramebuffer == 0) {
         result =
-            vtMakeFramebuffer(gl, "refract glass", colors, 2, surfaceDepth, &pass->glassFramebuffer, error);
+            vtMakeFramebuffer(gl, "refract glass", colors, 4, surfaceDepth, &pass->glassFramebuffer, error);
     }
     return result;
 }
@@ -56,14 +59,14 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
                         const vtRefractInputs* inputs)
 {
     const bool onlyGlass = vtTechnique_Row(technique)->surface;
-    vtBindFramebuffer(gl, onlyGlass ? pass->glassFramebuffer : pass->framebuffer, pass->paths.width,
-                      pass->paths.height);
+    vtBindFramebuffer(gl, onlyGlass ? pass->glassFramebuffer : pass->framebuffer, pass->targets.paths.width,
+                      pass->targets.paths.height);
     gl->UseProgram((inputs->countReads ? pass->counters : pass->programs)[technique]);
     // Units as VT_REFRACT_SAMPLERS in technique.c names them.
     const vtTexture* units[] = {inputs->surface,       inputs->innerDistances, inputs->layerDepths,
                                 inputs->layerNormals,  inputs->mergedDepths,   inputs->cubeSurfaces,
                                 inputs->cubeTriangles, inputs->intervals,      inputs->triangles,
-                                inputs->cubeColumns};
+                                inputs->cubeColumns,   inputs->objects};
     for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
         if (units[unit]->name != 0) {
             vtTexture_Bind(units[unit], gl, unit);
@@ -76,9 +79,7 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     // The triangle lies farther than every surface and as far as no surface: the depth test, before the
     // shader, leaves out the background.
     const GLuint background[4] = {0, 0, 0, VT_PATH_BACKGROUND};
-    const GLuint unchanged[4] = {0x3c00, 0, 0, 0}; // a half of 1: transmittance
     gl->ClearBufferuiv(GL_COLOR, 0, background);
-    gl->ClearBufferuiv(GL_COLOR, 1, unchanged);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_GREATER);
     gl->DepthMask(GL_FALSE);
@@ -96,7 +97,14 @@ void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl)
     }
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtDestroyFramebuffers(gl, &pass->glassFramebuffer, 1);
-    vtTexture_Destroy(&pass->paths, gl);
-    vtTexture_Destroy(&pass->light, gl);
+    vtTexture_Destroy(&pass->targets.paths, gl);
+    vtTexture_Destroy(&pass->targets.ends, gl);
+    vtTexture_Destroy(&pass->targets.lights, gl);
+    vtTexture_Destroy(&pass->targets.asides, gl);
     *pass = (vtRefractPass){0};
+}
+
+size_t vtRefractPass_Bytes(const vtRefractPass* pass)
+{
+    return 4 * vtTexture_Bytes(&pass->targets.paths);
 }

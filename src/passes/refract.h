@@ -4,14 +4,22 @@
 #include "gl/target.h"
 #include "technique.h"
 
+/// What becomes of every pixel's path (path.glsl); RGBA32UI each.
+typedef struct vtPathTargets {
+    vtTexture paths; ///< the bits of the last direction (three floats), state (VT_PATH_...)
+    vtTexture ends;  ///< the bits of the last position (three floats), triangle it ends on
+    vtTexture
+        lights; ///< halves: transmittance, light added on the way (red, green, blue each); object it ends on
+    vtTexture asides; ///< light that left the path: direction, share (three halves)
+} vtPathTargets;
+
 /// Follows every pixel's path through the glass with one technique of the ladder.
 typedef struct vtRefractPass {
     GLuint programs[vt_techniqueCount]; ///< compiled when first used
     GLuint counters[vt_techniqueCount]; ///< the same, counting texture reads
     GLuint framebuffer;
     GLuint glassFramebuffer; ///< the same with the surface pass's depth: only pixels that see glass are drawn
-    vtTexture light; ///< RG32UI: four halves, transmittance and light added on the way (red, green, blue)
-    vtTexture paths; ///< RGBA32UI: the bits of the last direction (three floats), state (VT_PATH_...)
+    vtPathTargets targets;
 } vtRefractPass;
 
 /// What a technique may read; those it needs (its row's samplers, by these names) must exist.
@@ -26,6 +34,7 @@ typedef struct vtRefractInputs {
     const vtTexture* intervals;
     const vtTexture* triangles;
     const vtTexture* cubeColumns;
+    const vtTexture* objects;
     bool countReads;
 } vtRefractInputs;
 
@@ -37,3 +46,4 @@ vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, in
 void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
                         const vtRefractInputs* inputs);
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl);
+size_t vtRefractPass_Bytes(const vtRefractPass* pass);

@@ -3,23 +3,45 @@
 #include "base/error.h"
 #include "shaders.h"
 
-static const vtProgramDef programDef = {
-    .name = "surface",
-    .vertex = {&vtChunk_picture, &vtChunk_mesh_vert},
-    .fragment = {&vtChunk_octahedral, &vtChunk_surface_attributes, &vtChunk_surface_frag},
+// By whether inner distances are drawn.
+static const vtProgramDef glassDefs[2] = {
+    {.name = "surface",
+     .vertex = {&vtChunk_picture, &vtChunk_mesh_vert},
+     .fragment = {&vtChunk_octahedral, &vtChunk_surface_attributes, &vtChunk_surface_frag}},
+    {.name = "surface with inner distance",
+     .vertex = {&vtChunk_inner_distance, &vtChunk_picture, &vtChunk_mesh_vert},
+     .fragment = {&vtChunk_inner_distance, &vtChunk_octahedral, &vtChunk_surface_attributes,
+                  &vtChunk_surface_frag}},
 };
 
-static const vtProgramDef distanceProgramDef = {
-    .name = "surface with inner distance",
-    .vertex = {&vtChunk_inner_distance, &vtChunk_picture, &vtChunk_mesh_vert},
-    .fragment = {&vtChunk_inner_distance, &vtChunk_octahedral, &vtChunk_surface_attributes,
-                 &vtChunk_surface_frag},
+static const vtProgramDef opaqueDefs[2] = {
+    {.name = "opaque surface",
+     .vertex = {&vtChunk_triangles, &vtChunk_surface_opaque_vert},
+     .fragment = {&vtChunk_surface_opaque_frag},
+     .samplers = {"u_triangles"}},
+    {.name = "opaque surface without inner distance",
+     .vertex = {&vtChunk_triangles, &vtChunk_surface_opaque_vert},
+     .fragment = {&vtChunk_inner_distance, &vtChunk_surface_opaque_frag},
+     .samplers = {"u_triangles"}},
 };
+
+static vtResult createPrograms(vtSurfacePass* pass, const vtGL* gl, int kind, vtError* error)
+{
+    vtResult result = vtCreateProgram(gl, &glassDefs[kind], &pass->glassPrograms[kind], error);
+    if (result == vt_ok) {
+        result = vtCreateProgram(gl, &opaqueDefs[kind], &pass->opaquePrograms[kind], error);
+    }
+    if (result == vt_ok) {
+        pass->glassUniforms[kind] = vtFindObjectUniforms(gl, pass->glassPrograms[kind]);
+        pass->opaqueUniforms[kind] = vtFindObjectUniforms(gl, pass->opaquePrograms[kind]);
+    }
+    return result;
+}
 
 vtResult vtSurfacePass_Create(vtSurfacePass* pass, const vtGL* gl, vtError* error)
 {
     *pass = (vtSurfacePass){0};
-    return vtCreateProgram(gl, &programDef, &pass->program, error);
+    return createPrograms(pass, gl, 0, error);
 }
 
 vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, bool distances,
@@ -30,49 +52,57 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
     vtResult result = vtSucceed(error);
     vtAttachment colors[] = {{&pass->attributes, 0}, {&pass->distances, 0}};
     if (changed) {
-        vtDestroyFramebuffers(gl, &pass->distanceFramebuffer, 1); // it holds the depth that is gone
-        result = vtMakeFramebuffer(gl, "surface", colors, 1, &pass->depth, &pass->framebuffer, error);
+        vtDestroyFramebuffers(gl, &pass->framebuffers[1], 1); // it holds the depth that is gone
+        result = vtMakeFramebuffer(gl, "surface", colors, 1, &pass->depth, &pass->framebuffers[0], error);
     }
     if (result != vt_ok || !distances) {
         return result;
     }
-    if (pass->distanceProgram == 0) {
-        result = vtCreateProgram(gl, &distanceProgramDef, &pass->distanceProgram, error);
+    if (pass->glassPrograms[1] == 0) {
+        result = createPrograms(pass, gl, 1, error);
     }
     changed = vtTexture_Resize(&pass->distances, gl, GL_R16UI, width, height, 0);
-    if (result == vt_ok && (changed || pass->distanceFramebuffer == 0)) {
+    if (result == vt_ok && (changed || pass->framebuffers[1] == 0)) {
         result = vtMakeFramebuffer(gl, "surface with inner distance", colors, 2, &pass->depth,
-                                   &pass->distanceFramebuffer, error);
+                                   &pass->framebuffers[1], error);
     }
     return result;
 }
 
-void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtMeshBuffer* mesh, bool distances)
+void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, bool distances,
+                        GLuint emptyVertexArray)
 {
     const float far = 1.0f;
     const GLuint none[4] = {0};
-    vtBindFramebuffer(gl, distances ? pass->distanceFramebuffer : pass->framebuffer, pass->depth.width,
-                      pass->depth.height);
+    vtBindFramebuffer(gl, pass->framebuffers[distances], pass->depth.width, pass->depth.height);
     gl->Enable(GL_DEPTH_TEST);
     gl->ClearBufferfv(GL_DEPTH, 0, &far);
     gl->ClearBufferuiv(GL_COLOR, 0, none);
     if (distances) {
         gl->ClearBufferuiv(GL_COLOR, 1, none);
     }
-    gl->UseProgram(distances ? pass->distanceProgram : pass->program);
-    vtMeshBuffer_Draw(mesh, gl);
+    gl->UseProgram(pass->glassPrograms[distances]);
+    vtSceneBuffer_Draw(scene, gl, &pass->glassUniforms[distances], 0, scene->glassCount);
+    if (scene->objectCount > scene->glassCount) {
+        gl->UseProgram(pass->opaquePrograms[distances]);
+        vtTexture_Bind(&scene->triangles, gl, 0);
+        gl->BindVertexArray(emptyVertexArray);
+        vtSceneBuffer_DrawTriangles(scene, gl, &pass->opaqueUniforms[distances], scene->glassCount,
+                                    scene->objectCount);
+    }
     gl->Disable(GL_DEPTH_TEST);
 }
 
 void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl)
 {
-    vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
-    vtDestroyFramebuffers(gl, &pass->distanceFramebuffer, 1);
+    vtDestroyFramebuffers(gl, pass->framebuffers, 2);
     vtTexture_Destroy(&pass->distances, gl);
     vtTexture_Destroy(&pass->depth, gl);
     vtTexture_Destroy(&pass->attributes, gl);
-    gl->DeleteProgram(pass->program);
-    gl->DeleteProgram(pass->distanceProgram);
+    for (int i = 0; i < 2; ++i) {
+        gl->DeleteProgram(pass->glassPrograms[i]);
+        gl->DeleteProgram(pass->opaquePrograms[i]);
+    }
     *pass = (vtSurfacePass){0};
 }
 

@@ -1,16 +1,18 @@
 #pragma once
 
-#include "gl/mesh_buffer.h"
 #include "gl/program.h"
+#include "gl/scene_buffer.h"
 #include "gl/target.h"
 
 /// The surface each pixel sees first, at the picture's resolution: depth and normals, and for the technique
 /// that asks for it the inner distance.
 typedef struct vtSurfacePass {
-    GLuint program, distanceProgram;
-    GLuint framebuffer, distanceFramebuffer;
+    // By whether inner distances are drawn; those are compiled when first used.
+    GLuint glassPrograms[2], opaquePrograms[2];
+    vtObjectUniforms glassUniforms[2], opaqueUniforms[2];
+    GLuint framebuffers[2];
     vtTexture depth;      ///< DEPTH_COMPONENT32F, 1 where there is nothing
-    vtTexture attributes; ///< RG32UI: octahedral normals, interpolated and of the triangle
+    vtTexture attributes; ///< RGBA32UI: surface.frag and surface_opaque.frag say what
     vtTexture distances;  ///< R16UI: inner distance, VT_DEPTH_SCALE is the diagonal of the object's box; only
                           ///< where asked for
 } vtSurfacePass;
@@ -18,6 +20,8 @@ typedef struct vtSurfacePass {
 vtResult vtSurfacePass_Create(vtSurfacePass* pass, const vtGL* gl, vtError* error);
 vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, bool distances,
                               vtError* error);
-void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtMeshBuffer* mesh, bool distances);
+/// `emptyVertexArray`: one without attributes.
+void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, bool distances,
+                        GLuint emptyVertexArray);
 void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl);
 size_t vtSurfacePass_Bytes(const vtSurfacePass* pass);

@@ -1,0 +1,2 @@
+#define WITH_SURFACE
+uniform usampler2D u_surface;

@@ -1,0 +1,135 @@
+#include "passes/shade.h"
+
+#include "base/error.h"
+#include "shaders.h"
+
+#define VT_SHADE_SAMPLERS                                                                                    \
+    {                                                                                                        \
+        "u_paths", "u_ends", "u_lights", "u_asides", "u_surface", "u_environment", "u_objects", "u_triangles", \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_cubeColumns", "u_attributes", "u_images",   \
+            "u_lighting"                                                                                       \
+    }
+
+// By whether there is something opaque, and a first surface.
+static const vtProgramDef programDefs[2][2] = {
+    {{.name = "shade blended",
+      .vertex = {&vtChunk_screen_vert},
+      .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics, &vtChunk_shade_frag},
+      .samplers = VT_SHADE_SAMPLERS},
+     {.name = "shade",
+      .vertex = {&vtChunk_screen_vert},
+      .fragment = {&vtChunk_with_surface, &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics,
+                   &vtChunk_shade_frag},
+      .samplers = VT_SHADE_SAMPLERS}},
+    {{.name = "shade opaque blended",
+      .vertex = {&vtChunk_screen_vert},
+      .fragment = {&vtChunk_with_opaque, &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics,
+                   &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh, &vtChunk_search_exact,
+                   &vtChunk_search_opaque, &vtChunk_lighting, &vtChunk_shading, &vtChunk_shade_frag},
+      .samplers = VT_SHADE_SAMPLERS},
+     {.name = "shade opaque",
+      .vertex = {&vtChunk_screen_vert},
+      .fragment = {&vtChunk_with_opaque, &vtChunk_with_surface, &vtChunk_octahedral, &vtChunk_environment,
+                   &vtChunk_objects, &vtChunk_optics, &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
+                   &vtChunk_search_exact, &vtChunk_search_opaque, &vtChunk_lighting, &vtChunk_shading,
+                   &vtChunk_shade_frag},
+      .samplers = VT_SHADE_SAMPLERS}},
+};
+
+vtResult vtShadePass_Create(vtShadePass* pass, const vtGL* gl, vtError* error)
+{
+    *pass = (vtShadePass){0};
+    vtTexture_Resize(&pass->environment, gl, GL_RGB16F, 1, 1, 0);
+    return vtCheckGL(gl, "creating the environment", error);
+}
+
+vtResult vtShadePass_SetEnvironment(vtShadePass* pass, const vtGL* gl, const vtEnvironment* environment,
+                                      vtError* error)
+{
+    bool isImage = environment->kind == vt_environmentImage;
+    int width = isImage ? environment->width : 1, height = isImage ? environment->height : 1;
+    GLint largest = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (width > largest || height > largest) {
+        return vtFail(
+            error, vt_errorContext,
+            "environment: %d x %d is more than this GPU's largest texture (%d); scale the picture down",
+            width, height, largest);
+    }
+    vtTexture fresh = {0};
+    vtTexture_Resize(&fresh, gl, GL_RGB16F, width, height, 0);
+    if (isImage) {
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGB, GL_FLOAT, environment->pixels);
+    }
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    vtResult result = vtCheckGL(gl, "uploading the environment", error);
+    if (result != vt_ok) {
+        vtTexture_Destroy(&fresh, gl);
+        return result;
+    }
+    vtTexture_Destroy(&pass->environment, gl);
+    pass->environment = fresh;
+    return vt_ok;
+}
+
+vtResult vtShadePass_Prepare(vtShadePass* pass, const vtGL* gl, int width, int height, bool opaque, bool surface,
+                             vtError* error)
+{
+    vtResult result = vtSucceed(error);
+    if (pass->programs[opaque][surface] == 0) {
+        result = vtCreateProgram(gl, &programDefs[opaque][surface], &pass->programs[opaque][surface], error);
+    }
+    if (result == vt_ok && vtTexture_Resize(&pass->radiance, gl, GL_RG32UI, width, height, 0)) {
+        vtAttachment color = {&pass->radiance, 0};
+        result = vtMakeFramebuffer(gl, "shade", &color, 1, NULL, &pass->framebuffer, error);
+    }
+    return result;
+}
+
+void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInputs* inputs)
+{
+    const vtSceneBuffer* scene = inputs->scene;
+    const bool opaque = scene->objectCount > scene->glassCount;
+    vtBindFramebuffer(gl, pass->framebuffer, pass->radiance.width, pass->radiance.height);
+    gl->UseProgram(pass->programs[opaque][inputs->surface != NULL]);
+    // Units as VT_SHADE_SAMPLERS names them.
+    const vtTexture* units[] = {&inputs->paths->paths,
+                                &inputs->paths->ends,
+                                &inputs->paths->lights,
+                                &inputs->paths->asides,
+                                inputs->surface,
+                                &pass->environment,
+                                &scene->table,
+                                &scene->triangles,
+                                &inputs->cube->surfaces,
+                                &inputs->cube->triangles,
+                                &inputs->cube->intervals,
+                                &inputs->cube->columns,
+                                &scene->attributes,
+                                inputs->images,
+                                inputs->lighting};
+    for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
+        if (units[unit] != NULL && units[unit]->name != 0) {
+            vtTexture_Bind(units[unit], gl, unit);
+        }
+    }
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void vtShadePass_Destroy(vtShadePass* pass, const vtGL* gl)
+{
+    for (int i = 0; i < 4; ++i) {
+        gl->DeleteProgram(pass->programs[i / 2][i % 2]);
+    }
+    vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
+    vtTexture_Destroy(&pass->environment, gl);
+    vtTexture_Destroy(&pass->radiance, gl);
+    *pass = (vtShadePass){0};
+}
+
+size_t vtShadePass_Bytes(const vtShadePass* pass)
+{
+    return vtTexture_Bytes(&pass->environment) + vtTexture_Bytes(&pass->radiance);
+}
