@@ -414,6 +414,7 @@ static void testWaterFillsTumbler(void** state)
     // Its surface is flat all over the inside, and lies 60 % up.
     const double pi = (double)VT_PI, inside = pi * 0.54 * 0.54 * (0.9 + 0.65);
     assert_true(fabs(measureVolume(&water) / (0.6 * inside) - 1.0) < 0.12); // it overlaps the glass
+    assert_true(measureVolume(&tumbler) < measureVolume(&water)); // where they overlap there is glass
     assert_float_equal(water.boundsMax.y, 0.28f, 1e-6f);
     for (size_t i = 0; i < water.vertexCount; ++i) {
         const vtVec3 p = vtMakeVec3(water.positions + 3 * i);
