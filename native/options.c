@@ -74,7 +74,7 @@ static const Option table[] = {
     {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)", SCENE},
     {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", SCENE},
     {"camera-index", 0, kindInteger, AT(cameraIndex), 0, 65535, "N",
-     "the file's camera of this number; those three go before it (none)", RENDER | VIEW},
+     "the files' camera of this number; --camera, --target and --fov go before it (none)", RENDER | VIEW},
     {"resolution", 'r', kindSize, AT(size), 1, 16384, "W,H", "pixels (512,512)", SCENE},
     {"directions", 0, kindText, AT(directions), 0, 0, "FILE",
      "exit directions as PFM; 0,0,0 background, 2,2,2 lost", RENDER},
