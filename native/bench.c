@@ -66,6 +66,7 @@ static vtResult setRows(const vtOptions* options, const vtSession* session, vtBe
         if (result != vt_ok) {
             return result;
         }
+        row->frame.fresnel = false; // strict paths, as the reference's
         row->frame = vtResolveFrame(&row->frame);
         labelRow(row);
     }
@@ -81,12 +82,12 @@ static vtResult runCase(const vtOptions* options, vtSession* session, vtBench* b
     if (result != vt_ok) {
         return result;
     }
-    measured->triangles = (int)(session->input.mesh.indexCount / 3);
+    measured->triangles = (int)vtCountTriangles(&session->input.scene);
     measured->width = options->size[0];
     measured->height = options->size[1];
-    fprintf(stderr, "vitrine: bench: %s, %d triangles, %d x %d\n", options->model, measured->triangles,
+    fprintf(stderr, "vitrine: bench: %s, %d triangles, %d x %d\n", bench->model, measured->triangles,
             measured->width, measured->height);
-    bench->ior = measured->rows[0].frame.ior;
+    bench->ior = vtCommonIor(&session->input);
     bench->maxEvents = measured->rows[0].frame.maxEvents;
     result = vtBench_Measure(options, session, bench, measured, error);
     bench->caseCount += result == vt_ok;
@@ -160,6 +161,12 @@ static vtResult checkOptions(const vtOptions* options, vtError* error)
     if (options->plot != NULL && sweep == NULL) {
         return vtFail(error, vt_errorArgument, "--plot draws a sweep; add --sweep triangles or resolution");
     }
+    const bool counted = options->triangles > 0 || (sweep != NULL && *sweep == 't');
+    if (counted && options->model == NULL && options->objectCount > 0) {
+        return vtFail(error, vt_errorArgument,
+                      "%s concerns the model named by itself; name knot or torus without --object",
+                      options->triangles > 0 ? "--triangles" : "--sweep triangles");
+    }
     if (sweep != NULL && *sweep == 't' && options->model != NULL && !vtHasFineShape(options->model)) {
         return vtFail(
             error, vt_errorArgument,
@@ -192,7 +199,9 @@ vtResult vtRunBench(const vtOptions* given, vtError* error)
         vtCloseSession(&session);
         return vtFail(error, vt_errorMemory, "bench: out of memory");
     }
-    bench->model = options.model;
+    char models[1024];
+    vtNameModels(&options, models, sizeof models);
+    bench->model = models;
     bench->sweep = options.sweep;
     bench->preset = options.preset;
     bench->threads = options.threads;

@@ -35,16 +35,16 @@ typedef struct vtBenchCase {
     double eventsAPath; ///< of the true paths, mean
     vtTiming traced;    ///< the reference, directions only
     double tracerBuild; ///< milliseconds, of the reference's search structure
-    double upload;      ///< milliseconds, vtRenderer_SetMesh
+    double upload;      ///< milliseconds, vtRenderer_SetScene
     size_t meshBytes;   ///< on the GPU
     vtBenchRow rows[vt_maxBenchRows];
 } vtBenchCase;
 
 typedef struct vtBench {
-    const char* model;
+    const char* model; ///< and further objects
     const char* sweep; ///< "triangles", "resolution" or NULL
     const char* preset;
-    float ior;
+    float ior; ///< of all glass; 0 where objects differ
     int maxEvents;
     int threads; ///< 0: as many as there are processors
     char device[128], version[128];

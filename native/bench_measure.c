@@ -69,7 +69,7 @@ static vtResult probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row
     }
     for (int warm = 0; warm < 2 && result == vt_ok; ++warm) {
         clock = startClock(session);
-        result = vtRenderer_SetMesh(renderer, &session->input.mesh, error);
+        result = vtRenderer_SetScene(renderer, &session->input.scene, error);
         clock.finish();
         measured->upload = vtNow() - clock.last.wall;
         if (result == vt_ok) {
@@ -197,7 +197,7 @@ vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtB
     }
     const double start = vtNow();
     if (result == vt_ok) {
-        result = vtCreateReference(&session->input.mesh, &reference, error);
+        result = vtCreateReference(&session->input.scene.meshes[0], &reference, error);
     }
     measured->tracerBuild = vtNow() - start;
     if (result == vt_ok) {

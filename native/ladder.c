@@ -99,7 +99,7 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
         result = climb(session, ladder, i, directions, error);
     }
     if (result == vt_ok) {
-        result = vtCreateReference(&session->input.mesh, &reference, error);
+        result = vtCreateReference(&session->input.scene.meshes[0], &reference, error);
     }
     if (result == vt_ok) {
         vtTiming times[rungCount], traced;
@@ -121,8 +121,14 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
 static void printTable(FILE* out, const vtOptions* options, const vtSession* session, const Ladder* ladder)
 {
     const vtFrame* frame = &ladder->frames[0];
-    fprintf(out, "`%s`, %d x %d, index %g, %d events; reference (Embree) %.0f ms; %s\n\n", options->model,
-            frame->width, frame->height, (double)frame->ior, vtResolveFrame(frame).maxEvents, ladder->traced,
+    const float ior = vtCommonIor(&session->input);
+    char models[1024], index[48] = "indices of their own";
+    vtNameModels(options, models, sizeof models);
+    if (ior > 0.0f) {
+        snprintf(index, sizeof index, "index %g", (double)ior);
+    }
+    fprintf(out, "`%s`, %d x %d, %s, %d events; reference (Embree) %.0f ms; %s\n\n", models, frame->width,
+            frame->height, index, vtResolveFrame(frame).maxEvents, ladder->traced,
             vtRenderer_Info(session->renderer).device);
     fprintf(out,
             "| technique | year | within 1° | within 5° | mean error | median | lost | mean FLIP | time | "
@@ -215,6 +221,7 @@ vtResult vtRunLadder(const vtOptions* given, vtError* error)
     result = ladder != NULL ? vtMakeFrame(&options, &session.input, &frame, error)
                             : vtFail(error, vt_errorMemory, "ladder: out of memory");
     if (result == vt_ok) {
+        frame.fresnel = false; // strict paths, as the reference's; options.fresnel is false here, too
         nameRungs(&frame, ladder);
         result = measure(&options, &session, ladder, error);
     }

@@ -4,14 +4,20 @@
 #include "options.h"
 
 typedef struct vtInput {
-    vtMesh mesh;
-    float ior; ///< of the command line, else of the file, else 1.5
+    vtScene scene;
     vtEnvironment environment;
+    float ior;   ///< of the command line; 0: each object's own
+    vtMesh mesh; ///< TEMPORARY: scene.meshes[0], borrowed, until trace.c takes the scene
 } vtInput;
 
-/// Loads model and environment, prints notes (computed normals) and warnings (an open mesh) to stderr.
+/// Loads models and environment, prints notes (computed normals) and warnings (an open mesh) to stderr.
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error);
 void vtDestroyInput(vtInput* input);
+
+/// The index of refraction that all glass is drawn with; 0 where objects differ, or none is glass.
+float vtCommonIor(const vtInput* input);
+
+uint32_t vtCountTriangles(const vtScene* scene);
 
 /// The frame that the options ask for.
 vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* frame, vtError* error);

@@ -18,7 +18,8 @@ static void printUsage(void)
         "  vitrine COMMAND --help                      the options of each\n"
         "  vitrine --version\n"
         "\n"
-        "MODEL is a .glb or .gltf file (- reads a .glb from standard input) or a built-in shape.\n");
+        "MODEL is a .glb or .gltf file (- reads a .glb from standard input) or a built-in shape.\n"
+        "Further objects: --object, see 'vitrine render --help'.\n");
 }
 
 static void printList(void)
@@ -69,7 +70,8 @@ static int runCommand(int index, int count, char** words)
     if (result == vt_ok && options.help) {
         printf(commands[index].command == vt_commandThesis
                    ? "vitrine %s [options]\n\n"
-                   : "vitrine %s MODEL [options]; MODEL is a .glb or .gltf file or a built-in shape\n\n",
+                   : "vitrine %s MODEL [options]; MODEL is a .glb or .gltf file or a built-in shape, or left "
+                     "out where --object names what is drawn\n\n",
                words[0]);
         vtPrintOptions(commands[index].command);
         return 0;

@@ -7,9 +7,10 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "objects.h"
 #include "timing.h"
 
-typedef enum Kind { kindFlag, kindText, kindInteger, kindNumber, kindVector, kindSize } Kind;
+typedef enum Kind { kindFlag, kindText, kindList, kindInteger, kindNumber, kindVector, kindSize } Kind;
 
 typedef struct Option {
     const char* name;
@@ -31,6 +32,8 @@ typedef struct Option {
 #define AT(field) offsetof(vtOptions, field)
 
 static const Option table[] = {
+    {"object", 0, kindList, AT(objects), 0, 0, "NAME[:KEYS]", "one more object, see below; up to 64 times",
+     SCENE},
     {"output", 'o', kindText, AT(output), 0, 0, "FILE", "the picture, PNG; - is standard output",
      RENDER | LADDER},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID", "see 'vitrine list' (exact)", RENDER | VIEW},
@@ -54,7 +57,7 @@ static const Option table[] = {
      "exact: texels along a side of its layers, a power of two (64, 128, 256)", SCENE},
     {"top-level", 0, kindInteger, AT(topLevel), 0, 9, "N", "exact: highest level of the interval pyramid (7)",
      SCENE},
-    {"ior", 0, kindNumber, AT(ior), 1, 4, "N", "index of refraction (the file's, else 1.5)", SCENE},
+    {"ior", 0, kindNumber, AT(ior), 1, 4, "N", "index of refraction of all glass (each object's own)", SCENE},
     {"transmittance", 0, kindNumber, AT(transmittance), 0, 1, "T",
      "of a surface (kay-linear), of a unit of length (kay-thickness) (0.8)", SCENE},
     {"max-transmittance", 0, kindNumber, AT(maxTransmittance), 0, 1, "T", "kay-nonlinear (0.95)", SCENE},
@@ -70,6 +73,8 @@ static const Option table[] = {
     {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)", SCENE},
     {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)", SCENE},
     {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", SCENE},
+    {"camera-index", 0, kindInteger, AT(cameraIndex), 0, 65535, "N",
+     "the files' camera of this number; --camera, --target and --fov go before it (none)", RENDER | VIEW},
     {"resolution", 'r', kindSize, AT(size), 1, 16384, "W,H", "pixels (512,512)", SCENE},
     {"directions", 0, kindText, AT(directions), 0, 0, "FILE",
      "exit directions as PFM; 0,0,0 background, 2,2,2 lost", RENDER},
@@ -78,8 +83,12 @@ static const Option table[] = {
      "path colours: red 2 refractions, blue more, green total reflection, grey lost", RENDER | VIEW},
     {"rendering-backend", 0, kindText, AT(backend), 0, 0, "auto|osmesa|egl", "headless GL (auto)",
      RENDER | LADDER | THESIS | BENCH},
-    {"fresnel", 0, kindFlag, AT(fresnel), 0, 0, NULL,
-     "reference: with Fresnel reflection, by chance for each sample", RENDER},
+    {"fresnel", 0, kindFlag, AT(fresnelGiven), 0, 0, NULL,
+     "with Fresnel reflection, the default; given, it holds for --directions too", RENDER | VIEW},
+    {"no-fresnel", 0, kindFlag, AT(noFresnel), 0, 0, NULL, "paths only refract, or reflect where they must",
+     RENDER | VIEW},
+    {"multi", 0, kindText, AT(multi), 0, 0, "any|ordered",
+     "layered, several objects: as paths meet them, or one after the other (any)", RENDER | VIEW | BENCH},
     {"events", 0, kindText, AT(events), 0, 0, "FILE",
      "reference: number of events of each pixel's path, grey PNG, for 'compare --events'", RENDER},
     {"samples", 0, kindInteger, AT(samples), 1, 65536, "N",
@@ -176,8 +185,18 @@ static vtResult store(const Option* option, char* value, vtOptions* options, vtE
         *(const char**)field = value;
         return vt_ok;
     }
+    if (option->kind == kindList) {
+        if (options->objectCount == VT_MAX_OBJECT_OPTIONS) {
+            return vtFail(error, vt_errorArgument,
+                          "--object '%.200s' is one too many; at most %d can be given", value,
+                          VT_MAX_OBJECT_OPTIONS);
+        }
+        ((const char**)field)[options->objectCount++] = value;
+        return vt_ok;
+    }
     options->hasCamera |= option->offset == AT(camera);
     options->hasTarget |= option->offset == AT(target);
+    options->hasFov |= option->offset == AT(fov);
     return storeNumbers(option, value, field, error);
 }
 
@@ -197,6 +216,8 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         .maxEvents = frame.maxEvents,
         .fov = frame.view.fovY,
         .backSurface = "second",
+        .multi = "any",
+        .cameraIndex = -1,
         .transmittance = frame.transmittance,
         .maxTransmittance = frame.maxTransmittance,
         .minTransmittance = frame.minTransmittance,
@@ -248,19 +269,36 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         options->model = words[optind++];
     }
     if (optind < count) {
-        return vtFail(error, vt_errorArgument, "one model is drawn at a time; '%s' is a second one",
+        return vtFail(error, vt_errorArgument,
+                      "one model is named by itself; '%s' is a second one, add it with --object",
                       words[optind]);
     }
+    if (options->fresnelGiven && options->noFresnel) {
+        return vtFail(error, vt_errorArgument, "--fresnel and --no-fresnel contradict each other; give one");
+    }
+    // The other commands compare strict paths.
+    options->fresnel = !options->noFresnel && (command == vt_commandRender || command == vt_commandView);
     return vtSucceed(error);
+}
+
+void vtNameModels(const vtOptions* options, char* text, size_t size)
+{
+    snprintf(text, size, "%s", options->model != NULL ? options->model : "");
+    for (int i = 0; i < options->objectCount; ++i) {
+        const size_t used = strlen(text);
+        snprintf(text + used, size - used, "%s%s", used > 0 ? " + " : "", options->objects[i]);
+    }
 }
 
 void vtPrintOptions(vtCommand command)
 {
+    bool objects = false;
     for (int i = 0; i < OPTION_COUNT; ++i) {
         const Option* option = &table[i];
         if ((option->commands & (1u << command)) == 0) {
             continue;
         }
+        objects = objects || option->kind == kindList;
         char left[64], range[48] = "";
         char letter[5] = "    ";
         if (option->letter != 0) {
@@ -272,5 +310,8 @@ void vtPrintOptions(vtCommand command)
             snprintf(range, sizeof range, ", %g to %g", option->low, option->high);
         }
         printf("  %-36s %s%s\n", left, option->help, range);
+    }
+    if (objects) {
+        vtPrintObjectHelp();
     }
 }

@@ -4,6 +4,8 @@
 #include "context.h"
 #include "vitrine.h"
 
+#define VT_MAX_OBJECT_OPTIONS 64
+
 /// All that `render` and `view` can be told. Zero or NULL means "not given" where a default depends on the
 /// model.
 typedef struct vtOptions {
@@ -23,10 +25,14 @@ typedef struct vtOptions {
     const char* preset;
     const char* sweep;
     const char* plot;
+    const char* multi;
+    const char* objects[VT_MAX_OBJECT_OPTIONS]; ///< of --object, as given
+    int objectCount;
     float ior, fov, exposure;
     float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
     vtVec3 camera, target;
-    bool hasCamera, hasTarget;
+    bool hasCamera, hasTarget, hasFov;
+    int cameraIndex; ///< of the file's cameras; -1: none of them
     int size[2];
     int layers, steps, refine, maxEvents, layerSize, cubeSize, topLevel;
     int samples; ///< a pixel
@@ -35,8 +41,10 @@ typedef struct vtOptions {
     int rounds, threads;
     int frames; ///< view: close after so many, 0: never
     bool json;
-    bool fresnel, analysis, verbose, help;
-    bool innerDistances; ///< set by commands that draw `wyman` whatever the technique option says
+    bool analysis, verbose, help;
+    bool fresnelGiven, noFresnel; ///< as given
+    bool fresnel;                 ///< what follows from them; never where strict paths are measured
+    bool innerDistances;          ///< set by commands that draw `wyman` whatever the technique option says
 } vtOptions;
 
 typedef enum vtCommand {
@@ -50,6 +58,9 @@ typedef enum vtCommand {
 /// Parses the words after the command. Fails with a sentence on an unknown option, a missing or malformed
 /// value or one out of range.
 vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* options, vtError* error);
+
+/// What is drawn, for reports: the model and the objects, " + " between them.
+void vtNameModels(const vtOptions* options, char* text, size_t size);
 
 /// Prints the table.
 void vtPrintOptions(vtCommand command);

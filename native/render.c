@@ -45,7 +45,9 @@ static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, uint8_t*
     return result;
 }
 
-static vtResult readDirections(vtRenderer* renderer, const vtFrame* frame, Output* output, vtError* error)
+/// `fresnel`: with Fresnel reflection, where the frame has it.
+static vtResult readDirections(vtRenderer* renderer, const vtFrame* frame, bool fresnel, Output* output,
+                               vtError* error)
 {
     float* directions = malloc(3 * sizeof(float) * (size_t)frame->width * (size_t)frame->height);
     if (directions == NULL) {
@@ -55,7 +57,9 @@ static vtResult readDirections(vtRenderer* renderer, const vtFrame* frame, Outpu
     // Those of the pixel's centre, as the reference has them.
     vtFrame centre = *frame;
     centre.samples = 1;
-    vtResult result = frame->samples > 1 ? vtRenderer_DrawImage(renderer, &centre, NULL, error) : vt_ok;
+    centre.fresnel = frame->fresnel && fresnel;
+    const bool drawn = frame->samples == 1 && centre.fresnel == frame->fresnel;
+    vtResult result = !drawn ? vtRenderer_DrawImage(renderer, &centre, NULL, error) : vt_ok;
     if (result == vt_ok) {
         result = vtRenderer_ReadDirections(renderer, directions, error);
     }
@@ -128,19 +132,23 @@ static void sayLayers(const vtFrame* frame, const vtRendererInfo* info)
     fprintf(stderr, " MB)\n");
 }
 
-static vtResult drawAll(const vtOptions* options, const vtFrame* frame, vtRenderer* renderer, uint8_t* pixels,
-                        Output* outputs, vtError* error)
+/// `ior`: of all glass, 0: there are several.
+static vtResult drawAll(const vtOptions* options, const vtFrame* frame, float ior, vtRenderer* renderer,
+                        uint8_t* pixels, Output* outputs, vtError* error)
 {
     vtResult result = drawPicture(renderer, frame, pixels, &outputs[outputPicture], error);
     if (result == vt_ok && options->verbose) {
         vtRendererInfo info = vtRenderer_Info(renderer);
         fprintf(stderr, "vitrine: %s, %s\n", info.device, info.version);
-        fprintf(stderr, "vitrine: ior %g, %.1f MB of textures, %.1f MB of mesh\n", (double)frame->ior,
-                (double)info.textureBytes / 1e6, (double)info.meshBytes / 1e6);
+        if (ior > 0.0f) {
+            fprintf(stderr, "vitrine: ior %g\n", (double)ior);
+        }
+        fprintf(stderr, "vitrine: %.1f MB of textures, %.1f MB of mesh\n", (double)info.textureBytes / 1e6,
+                (double)info.meshBytes / 1e6);
         sayLayers(frame, &info);
     }
     if (result == vt_ok && options->directions != NULL) {
-        result = readDirections(renderer, frame, &outputs[outputDirections], error);
+        result = readDirections(renderer, frame, options->fresnelGiven, &outputs[outputDirections], error);
     }
     if (result == vt_ok && options->layerSheet != NULL) {
         result = drawLayerSheet(renderer, frame, &outputs[outputSheet], error);
@@ -162,7 +170,8 @@ static vtResult rasterise(const vtOptions* options, vtFrame* frame, uint8_t** pi
     }
     if (result == vt_ok) {
         *pixels = malloc(4 * (size_t)frame->width * (size_t)frame->height);
-        result = *pixels != NULL ? drawAll(options, frame, session.renderer, *pixels, outputs, error)
+        result = *pixels != NULL ? drawAll(options, frame, vtCommonIor(&session.input), session.renderer,
+                                           *pixels, outputs, error)
                                  : vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d",
                                           frame->width, frame->height);
     }
@@ -184,7 +193,10 @@ static vtResult trace(const vtOptions* options, vtFrame* frame, uint8_t** pixels
     vtReferenceImage image = {0};
     result = vtMakeFrame(options, &input, frame, error);
     if (result == vt_ok) {
-        result = vtTrace(options, &input, frame, &image, error);
+        // TEMPORARY: until the renderer has Fresnel reflection, the reference has it where it is asked for.
+        vtOptions asked = *options;
+        asked.fresnel = options->fresnelGiven;
+        result = vtTrace(&asked, &input, frame, &image, error);
     }
     if (result == vt_ok) {
         result = vtTracePixels(&image, frame, pixels, error);

@@ -22,7 +22,7 @@ static vtResult findBackend(const char* name, vtBackend* backend, vtError* error
 
 static vtResult setScene(vtSession* session, vtError* error)
 {
-    vtResult result = vtRenderer_SetMesh(session->renderer, &session->input.mesh, error);
+    vtResult result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
     if (result == vt_ok) {
         result = vtRenderer_SetEnvironment(session->renderer, &session->input.environment, error);
     }

@@ -87,7 +87,8 @@ static vtFrame frameAt(const Page* page, float distance)
     frame.technique = vt_techniqueLayered;
     frame.width = frame.height = side;
     frame.ior = 1.5f;
-    frame.view = vtView_Zoom(vtFrameMesh(&page->session.input.mesh, 45.0f, 1.0f), distance);
+    frame.fresnel = false; // as the thesis
+    frame.view = vtView_Zoom(vtFrameScene(&page->session.input.scene, 45.0f, 1.0f), distance);
     return frame;
 }
 
@@ -189,7 +190,7 @@ static vtResult addComparisons(Page* page, vtError* error)
 static vtResult addTimes(Page* page, const Model* model, vtError* error)
 {
     vtReference* reference;
-    vtResult result = vtCreateReference(&page->session.input.mesh, &reference, error);
+    vtResult result = vtCreateReference(&page->session.input.scene.meshes[0], &reference, error);
     vtTiming drawn[2], traced[2];
     for (int i = 0; i < 2 && result == vt_ok; ++i) {
         vtFrame frame = frameAt(page, i == 0 ? 2.0f : 1.0f);
@@ -199,7 +200,7 @@ static vtResult addTimes(Page* page, const Model* model, vtError* error)
     vtDestroyReference(reference);
     if (result == vt_ok) {
         fprintf(page->html, "<tr><th>%s</th><td>%u</td>", model->title,
-                page->session.input.mesh.indexCount / 3);
+                vtCountTriangles(&page->session.input.scene));
         for (int i = 0; i < 2; ++i) {
             fprintf(page->html, "<td>%.1f ms</td><td>%.1f ms</td><td>%.2f</td>", drawn[i].wall,
                     traced[i].wall, drawn[i].wall / traced[i].wall);

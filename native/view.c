@@ -51,7 +51,7 @@ vtResult vtRunView(const vtOptions* options, vtError* error)
         result = vtCreateRenderer(&(vtRendererDef){vtWindow_GetProcAddress()}, &renderer, error);
     }
     if (result == vt_ok) {
-        result = vtRenderer_SetMesh(renderer, &input.mesh, error);
+        result = vtRenderer_SetScene(renderer, &input.scene, error);
     }
     if (result == vt_ok) {
         result = vtRenderer_SetEnvironment(renderer, &input.environment, error);

@@ -137,8 +137,16 @@ static bool revolve(vtShapeData* shape, const Profile* profile)
         vtShape_AddTriangle(shape, 0, 1 + column, 1 + next);
         vtShape_AddTriangle(shape, lastRing + column, lastPole, lastRing + next);
     }
-    vtShape_Fit(shape, 2.0f);
     return true;
+}
+
+static bool revolveFitted(vtShapeData* shape, const Profile* profile)
+{
+    const bool built = revolve(shape, profile);
+    if (built) {
+        vtShape_Fit(shape, 2.0f);
+    }
+    return built;
 }
 
 bool vtBuildGoblet(vtShapeData* shape)
@@ -189,7 +197,7 @@ bool vtBuildGoblet(vtShapeData* shape)
         {0.0, 0.930},
     };
     const Profile profile = {points, sizeof points / sizeof points[0]};
-    return revolve(shape, &profile);
+    return revolveFitted(shape, &profile);
 }
 
 bool vtBuildBottle(vtShapeData* shape)
@@ -255,6 +263,79 @@ bool vtBuildBottle(vtShapeData* shape)
         {0.155, 0.175},
         {0.08, 0.225},
         {0.0, 0.235},
+    };
+    const Profile profile = {points, sizeof points / sizeof points[0]};
+    return revolveFitted(shape, &profile);
+}
+
+// The tumbler's outside: radius 0.6, from -0.9 up to 0.9. Its wall is 0.06 thick, its base 0.25, so the
+// inside has radius 0.54 and begins at -0.65. The water goes 0.02, a third of the wall, into wall and base,
+// and ends at 0.28, which is 60 % of the inside.
+
+bool vtBuildTumbler(vtShapeData* shape)
+{
+    static const ProfilePoint points[] = {
+        // base
+        {0.0, -0.9},
+        {0.28, -0.9},
+        {0.52, -0.9},
+        {0.565, -0.9},
+        {0.592, -0.892},
+        {0.6, -0.865},
+        {0.6, -0.82},
+        // outside
+        {0.6, -0.6},
+        {0.6, 0.0},
+        {0.6, 0.6},
+        {0.6, 0.82},
+        {0.6, 0.872},
+        // rim
+        {0.597, 0.894},
+        {0.583, 0.9},
+        {0.57, 0.9},
+        {0.557, 0.9},
+        {0.543, 0.894},
+        // inside
+        {0.54, 0.872},
+        {0.54, 0.82},
+        {0.54, 0.6},
+        {0.54, 0.0},
+        {0.54, -0.4},
+        {0.54, -0.56},
+        // floor
+        {0.54, -0.6},
+        {0.528, -0.638},
+        {0.49, -0.65},
+        {0.45, -0.65},
+        {0.24, -0.65},
+        {0.0, -0.65},
+    };
+    const Profile profile = {points, sizeof points / sizeof points[0]};
+    return revolve(shape, &profile);
+}
+
+bool vtBuildWater(vtShapeData* shape)
+{
+    static const ProfilePoint points[] = {
+        // in the tumbler's base and along its floor's curve
+        {0.0, -0.67},
+        {0.24, -0.67},
+        {0.45, -0.67},
+        {0.49, -0.67},
+        {0.543, -0.653},
+        {0.56, -0.6},
+        {0.56, -0.56},
+        // in its wall
+        {0.56, -0.4},
+        {0.56, 0.0},
+        {0.56, 0.24},
+        {0.56, 0.272},
+        // the edge, inside the wall; from there the surface is flat
+        {0.56, 0.28},
+        {0.553, 0.28},
+        {0.52, 0.28},
+        {0.26, 0.28},
+        {0.0, 0.28},
     };
     const Profile profile = {points, sizeof points / sizeof points[0]};
     return revolve(shape, &profile);

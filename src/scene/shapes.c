@@ -22,6 +22,10 @@ static const ShapeRow shapeTable[] = {
     {"goblet", "hollow wine glass with stem and foot", vtBuildGoblet, 0},
     {"bottle", "hollow wine bottle with lip and punt", vtBuildBottle, 0},
     {"diamond", "round brilliant cut with 57 facets and a faceted girdle", vtBuildDiamond, 0},
+    {"cube", "cube of side 1.2 with flat faces", vtBuildCube, 0},
+    {"plane", "square of side 4 that faces +z, open: a ground or a backdrop", vtBuildPlane, 0},
+    {"tumbler", "hollow drinking glass with a thick base", vtBuildTumbler, 0},
+    {"water", "what fills the tumbler to 60 %, its sides inside the tumbler's walls", vtBuildWater, 0},
 };
 enum { shapeCount = sizeof shapeTable / sizeof shapeTable[0] };
 
@@ -70,6 +74,7 @@ static vtResult createShape(const ShapeRow* row, float fineness, vtMesh* mesh, v
             .indices = shape.indices,
             .vertexCount = shape.vertexCount,
             .indexCount = shape.indexCount,
+            .texcoords = shape.texcoords,
         };
         result = vtCreateMesh(&def, name, mesh, error);
     } else {
@@ -118,10 +123,17 @@ bool vtShape_Reserve(vtShapeData* shape, uint32_t vertexRoom, uint32_t triangleR
     return shape->positions != NULL && shape->normals != NULL && shape->indices != NULL;
 }
 
+bool vtShape_ReserveTextured(vtShapeData* shape, uint32_t vertexRoom, uint32_t triangleRoom)
+{
+    shape->texcoords = calloc(vertexRoom, 2 * sizeof(float));
+    return vtShape_Reserve(shape, vertexRoom, triangleRoom) && shape->texcoords != NULL;
+}
+
 void vtShape_Free(vtShapeData* shape)
 {
     free(shape->positions);
     free(shape->normals);
+    free(shape->texcoords);
     free(shape->indices);
     *shape = (vtShapeData){0};
 }

@@ -7,6 +7,7 @@
 typedef struct vtShapeData {
     float* positions;
     float* normals;
+    float* texcoords; ///< 2 a vertex, or NULL
     uint32_t* indices;
     uint32_t vertexCount, vertexRoom;
     uint32_t indexCount, indexRoom;
@@ -21,6 +22,8 @@ bool vtHasFineShape(const char* name);
 
 /// Makes room in an empty shape; false where memory is short, and then the shape stays safe to free.
 bool vtShape_Reserve(vtShapeData* shape, uint32_t vertexRoom, uint32_t triangleRoom);
+/// The same with texture coordinates for every vertex, at first 0.
+bool vtShape_ReserveTextured(vtShapeData* shape, uint32_t vertexRoom, uint32_t triangleRoom);
 void vtShape_Free(vtShapeData* shape);
 
 /// Returns the new vertex's number. The normal has unit length.
@@ -43,3 +46,7 @@ bool vtBuildKnot(vtShapeData* shape);
 bool vtBuildGoblet(vtShapeData* shape);
 bool vtBuildBottle(vtShapeData* shape);
 bool vtBuildDiamond(vtShapeData* shape);
+bool vtBuildCube(vtShapeData* shape);
+bool vtBuildPlane(vtShapeData* shape);
+bool vtBuildTumbler(vtShapeData* shape);
+bool vtBuildWater(vtShapeData* shape); ///< in the tumbler's coordinates
