@@ -302,9 +302,6 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->width = options->size[0];
     frame->height = options->size[1];
     frame->ior = input->ior;
-    if (frame->ior == 0.0f) { // TEMPORARY: until the renderer takes each object's own
-        frame->ior = vtClamp(input->scene.materials[0].ior, 1.0f, 4.0f);
-    }
     frame->fresnel = options->fresnel;
     frame->layers = options->layers;
     frame->steps = options->steps;
