@@ -3,7 +3,9 @@ uniform usampler2D u_paths;
 uniform usampler2D u_ends;
 uniform usampler2D u_lights;
 uniform usampler2D u_asides;
+#ifndef WITH_OPAQUE // lighting.glsl has it
 uniform sampler2D u_environment;
+#endif
 
 layout(location = 0) out uvec2 o_radiance; // four halves: linear light after exposure, share of the pixel it covers
 

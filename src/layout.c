@@ -9,8 +9,8 @@
 #include "scene/camera.h"
 #include "technique.h"
 
-/// A mesh's coordinates to its cube's, 0 to 1, with a border of whole texels around the mesh. Extents are those of
-/// the mesh along the cube's axes.
+/// A mesh's coordinates to its cube's, 0 to 1, with a border of whole texels around the mesh. Extents are
+/// those of the mesh along the cube's axes.
 static void fitCube(const vtCubeFrame* cube, int size, float rows[4][4], float* extents)
 {
     const float border = 2.5f / (float)size;
@@ -85,9 +85,10 @@ static void writeObject(const vtSceneBuffer* scene, const vtObjectBuffer* object
     }
     // A little more than the box: a ray that starts on its side is within it.
     const float margin = 1e-5f * vtLength(vtSub(placed->high, placed->low));
-    writeNumbers(words, VT_OBJECT_LOW, placed->low.x - margin, placed->low.y - margin, placed->low.z - margin, 0.0f);
-    writeNumbers(words, VT_OBJECT_HIGH, placed->high.x + margin, placed->high.y + margin, placed->high.z + margin,
+    writeNumbers(words, VT_OBJECT_LOW, placed->low.x - margin, placed->low.y - margin, placed->low.z - margin,
                  0.0f);
+    writeNumbers(words, VT_OBJECT_HIGH, placed->high.x + margin, placed->high.y + margin,
+                 placed->high.z + margin, 0.0f);
     words[4 * VT_OBJECT_HIGH + 3] = material->opaque;
     writeNumbers(words, VT_OBJECT_GLASS, ior > 0.0f ? ior : material->ior, placed->absorption.x,
                  placed->absorption.y, placed->absorption.z);
@@ -95,7 +96,8 @@ static void writeObject(const vtSceneBuffer* scene, const vtObjectBuffer* object
     writeNumbers(words, VT_OBJECT_COLOR, color.x, color.y, color.z, 0.0f);
     words[4 * VT_OBJECT_COLOR + 3] = object->firstAttribute;
     writeNumbers(words, VT_OBJECT_SURFACE, material->metallic, material->roughness, material->checker, 0.0f);
-    writeNumbers(words, VT_OBJECT_EMISSIVE, material->emissive.x, material->emissive.y, material->emissive.z, 0.0f);
+    writeNumbers(words, VT_OBJECT_EMISSIVE, material->emissive.x, material->emissive.y, material->emissive.z,
+                 0.0f);
     words[4 * VT_OBJECT_IMAGES] = (uint32_t)material->baseColorImage; // VT_NO_TRIANGLE for -1
     words[4 * VT_OBJECT_IMAGES + 1] = (uint32_t)material->metallicRoughnessImage;
     words[4 * VT_OBJECT_IMAGES + 2] = mesh->firstTriangle;

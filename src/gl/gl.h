@@ -46,6 +46,7 @@
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                   \
     X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, FramebufferTextureLayer)                                             \
     X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                       \
+    X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                                                               \
     X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                             \
     X(PFNGLGENTEXTURESPROC, GenTextures)                                                                     \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                             \
@@ -68,6 +69,7 @@
     X(PFNGLTEXSTORAGE2DPROC, TexStorage2D)                                                                   \
     X(PFNGLTEXSTORAGE3DPROC, TexStorage3D)                                                                   \
     X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                                                 \
+    X(PFNGLTEXSUBIMAGE3DPROC, TexSubImage3D)                                                                 \
     X(PFNGLUNIFORM1IPROC, Uniform1i)                                                                         \
     X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                                       \
     X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)                                                     \

@@ -14,6 +14,7 @@ static const vtChunk header = {"header", "#version 300 es\n"
                                          "precision highp float;\n"
                                          "precision highp int;\n"
                                          "precision highp sampler2D;\n"
+                                         "precision highp sampler2DArray;\n"
                                          "precision highp usampler2D;\n"
                                          "precision highp usampler2DArray;\n"};
 

@@ -6,10 +6,11 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "gl/image_array.h"
 #include "scene/triangles.h"
 
-/// Which meshes are used at all, and which of them by opaque objects with attributes; number of the first triangle
-/// of each among those of all.
+/// Which meshes are used at all, and which of them by opaque objects with attributes; number of the first
+/// triangle of each among those of all.
 typedef struct MeshUse {
     bool used, hasAttributes;
     uint32_t firstTriangle, firstAttribute;
@@ -35,8 +36,8 @@ static uint32_t* allocateRecords(uint32_t count, size_t words)
     return calloc(rows * VT_TRIANGLES_A_ROW + 1, words * sizeof(uint32_t));
 }
 
-static vtResult uploadTriangles(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* scene, const MeshUse* uses,
-                                uint32_t count, vtError* error)
+static vtResult uploadTriangles(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* scene,
+                                const MeshUse* uses, uint32_t count, vtError* error)
 {
     uint32_t* records = allocateRecords(count, VT_TRIANGLE_WORDS);
     bool ready = records != NULL;
@@ -90,19 +91,21 @@ static void writeAttributes(const vtMesh* mesh, uint32_t* records)
     }
 }
 
-static vtResult uploadAttributes(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* scene, const MeshUse* uses,
-                                 uint32_t count, vtError* error)
+static vtResult uploadAttributes(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* scene,
+                                 const MeshUse* uses, uint32_t count, vtError* error)
 {
     uint32_t* records = allocateRecords(count, 12);
     if (records == NULL) {
-        return vtFail(error, vt_errorMemory, "scene: out of memory for the attributes of %u triangles", count);
+        return vtFail(error, vt_errorMemory, "scene: out of memory for the attributes of %u triangles",
+                      count);
     }
     for (uint32_t mesh = 0; mesh < scene->meshCount; ++mesh) {
         if (uses[mesh].hasAttributes) {
             writeAttributes(&scene->meshes[mesh], records + 12 * (size_t)uses[mesh].firstAttribute);
         }
     }
-    vtTexture_UploadRecords(&buffer->attributes, gl, records, count > 0 ? (int)count : 1, 3, VT_TRIANGLES_A_ROW);
+    vtTexture_UploadRecords(&buffer->attributes, gl, records, count > 0 ? (int)count : 1, 3,
+                            VT_TRIANGLES_A_ROW);
     free(records);
     return vt_ok;
 }
@@ -119,7 +122,8 @@ static vtResult uploadMeshes(vtSceneBuffer* buffer, const vtGL* gl, const vtScen
     buffer->meshCount = scene->meshCount;
     for (uint32_t i = 0; i < scene->meshCount && result == vt_ok; ++i) {
         if (uses[i].used) {
-            result = vtMeshBuffer_Create(&buffer->meshes[i], gl, &scene->meshes[i], uses[i].firstTriangle, error);
+            result =
+                vtMeshBuffer_Create(&buffer->meshes[i], gl, &scene->meshes[i], uses[i].firstTriangle, error);
             buffer->cubeFrames[i] = vtFitCube(&scene->meshes[i]);
             buffer->meshBytes += buffer->meshes[i].bytes;
         }
@@ -142,10 +146,12 @@ static void keepObjects(vtSceneBuffer* buffer, const vtScene* scene, const vtPla
     for (uint32_t i = 0; i < scene->objectCount; ++i) {
         const MeshUse* use = &uses[placed[i].meshIndex];
         const bool attributes = placed[i].material->opaque && use->hasAttributes;
-        buffer->objects[i] =
-            (vtObjectBuffer){placed[i], *placed[i].material, placed[i].meshIndex,
-                             attributes ? use->firstAttribute : VT_NO_TRIANGLE,
-                             placed[i].mesh->boundsMin, placed[i].mesh->boundsMax};
+        buffer->objects[i] = (vtObjectBuffer){placed[i],
+                                              *placed[i].material,
+                                              placed[i].meshIndex,
+                                              attributes ? use->firstAttribute : VT_NO_TRIANGLE,
+                                              placed[i].mesh->boundsMin,
+                                              placed[i].mesh->boundsMax};
         extend(&buffer->low, &buffer->high, &placed[i]);
         if (i < buffer->glassCount || buffer->glassCount == 0) {
             extend(&buffer->glassMin, &buffer->glassMax, &placed[i]);
@@ -185,6 +191,9 @@ static vtResult createBuffer(vtSceneBuffer* buffer, const vtGL* gl, const vtScen
     if (result == vt_ok) {
         result = uploadAttributes(buffer, gl, scene, uses, (uint32_t)attributes, error);
     }
+    if (result == vt_ok && buffer->glassCount < buffer->objectCount) {
+        result = vtImageArray_Upload(&buffer->images, gl, scene, error);
+    }
     keepObjects(buffer, scene, placed, uses);
     buffer->meshBytes += vtTexture_Bytes(&buffer->triangles);
     return result == vt_ok ? vtCheckGL(gl, "uploading the scene", error) : result;
@@ -220,6 +229,7 @@ void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl)
     free(buffer->words);
     vtTexture_Destroy(&buffer->triangles, gl);
     vtTexture_Destroy(&buffer->attributes, gl);
+    vtTexture_Destroy(&buffer->images, gl);
     vtTexture_Destroy(&buffer->table, gl);
     *buffer = (vtSceneBuffer){0};
 }
@@ -252,8 +262,8 @@ vtObjectUniforms vtFindObjectUniforms(const vtGL* gl, GLuint program)
     };
 }
 
-static const vtMeshBuffer* setObject(const vtSceneBuffer* buffer, const vtGL* gl, const vtObjectUniforms* uniforms,
-                                     uint32_t index)
+static const vtMeshBuffer* setObject(const vtSceneBuffer* buffer, const vtGL* gl,
+                                     const vtObjectUniforms* uniforms, uint32_t index)
 {
     const vtObjectBuffer* object = &buffer->objects[index];
     const vtMeshBuffer* mesh = &buffer->meshes[object->mesh];
@@ -273,8 +283,8 @@ void vtSceneBuffer_Draw(const vtSceneBuffer* buffer, const vtGL* gl, const vtObj
     }
 }
 
-void vtSceneBuffer_DrawTriangles(const vtSceneBuffer* buffer, const vtGL* gl, const vtObjectUniforms* uniforms,
-                                 uint32_t first, uint32_t last)
+void vtSceneBuffer_DrawTriangles(const vtSceneBuffer* buffer, const vtGL* gl,
+                                 const vtObjectUniforms* uniforms, uint32_t first, uint32_t last)
 {
     for (uint32_t i = first; i < last; ++i) {
         gl->DrawArrays(GL_TRIANGLES, 0, setObject(buffer, gl, uniforms, i)->indexCount);
@@ -283,5 +293,6 @@ void vtSceneBuffer_DrawTriangles(const vtSceneBuffer* buffer, const vtGL* gl, co
 
 size_t vtSceneBuffer_TextureBytes(const vtSceneBuffer* buffer)
 {
-    return vtTexture_Bytes(&buffer->attributes) + vtTexture_Bytes(&buffer->table);
+    return vtTexture_Bytes(&buffer->attributes) + vtTexture_Bytes(&buffer->images) +
+           vtTexture_Bytes(&buffer->table);
 }

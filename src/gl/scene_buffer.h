@@ -28,10 +28,11 @@ typedef struct vtSceneBuffer {
     uint32_t objectCount, glassCount;
     vtVec3 glassMin, glassMax; ///< box of the glass, or of all where there is none; world
     vtVec3 low, high;          ///< of all
-    vtTexture triangles;       ///< RGBA32UI, scene/triangles.h, of all meshes; neighbours by their number in it
-    vtTexture attributes;      ///< RGBA32UI, constants.h; one texel where no opaque mesh has any
-    vtTexture table;           ///< RGBA32UI: VT_OBJECT_...
-    uint32_t* words;           ///< of the table, as it was uploaded last
+    vtTexture triangles;  ///< RGBA32UI, scene/triangles.h, of all meshes; neighbours by their number in it
+    vtTexture attributes; ///< RGBA32UI, constants.h; one texel where no opaque mesh has any
+    vtTexture images;     ///< of opaque materials, gl/image_array.h
+    vtTexture table;      ///< RGBA32UI: VT_OBJECT_...
+    uint32_t* words;      ///< of the table, as it was uploaded last
     size_t meshBytes;
 } vtSceneBuffer;
 
@@ -39,8 +40,8 @@ typedef struct vtSceneBuffer {
 vtResult vtSceneBuffer_Create(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* scene, vtError* error);
 void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl);
 
-/// Uploads the table where `words`, objectCount * VT_OBJECT_TEXELS * 4, differ from what it holds; true where they
-/// do.
+/// Uploads the table where `words`, objectCount * VT_OBJECT_TEXELS * 4, differ from what it holds; true where
+/// they do.
 bool vtSceneBuffer_SetTable(vtSceneBuffer* buffer, const vtGL* gl, const uint32_t* words);
 
 /// Those that a program has.
@@ -49,9 +50,9 @@ vtObjectUniforms vtFindObjectUniforms(const vtGL* gl, GLuint program);
 /// Draws objects first to last - 1, each from its vertices; the program in use has these uniforms.
 void vtSceneBuffer_Draw(const vtSceneBuffer* buffer, const vtGL* gl, const vtObjectUniforms* uniforms,
                         uint32_t first, uint32_t last);
-/// The same without vertices: three for each triangle, which the vertex shader reads from the texture. A vertex
-/// array without attributes must be bound.
-void vtSceneBuffer_DrawTriangles(const vtSceneBuffer* buffer, const vtGL* gl, const vtObjectUniforms* uniforms,
-                                 uint32_t first, uint32_t last);
+/// The same without vertices: three for each triangle, which the vertex shader reads from the texture. A
+/// vertex array without attributes must be bound.
+void vtSceneBuffer_DrawTriangles(const vtSceneBuffer* buffer, const vtGL* gl,
+                                 const vtObjectUniforms* uniforms, uint32_t first, uint32_t last);
 
 size_t vtSceneBuffer_TextureBytes(const vtSceneBuffer* buffer);

@@ -33,6 +33,7 @@ void vtTexture_UploadRecords(vtTexture* texture, const vtGL* gl, const uint32_t*
 {
     const int whole = count / recordsARow, rest = count % recordsARow, width = recordsARow * texels;
     vtTexture_Resize(texture, gl, GL_RGBA32UI, width, whole + (rest > 0), 0);
+    vtTexture_Bind(texture, gl, 0);
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, whole, GL_RGBA_INTEGER, GL_UNSIGNED_INT, words);
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, whole, rest * texels, rest > 0 ? 1 : 0, GL_RGBA_INTEGER,
                       GL_UNSIGNED_INT, words + 4 * (size_t)width * (size_t)whole);
@@ -52,12 +53,14 @@ static size_t bytesPerTexel(GLenum format)
     case GL_R16UI:
         return 2;
     case GL_RGBA8:
+    case GL_SRGB8_ALPHA8:
     case GL_DEPTH_COMPONENT32F:
         return 4;
     case GL_RGB16F:
         return 6;
     case GL_RG32UI:
     case GL_RGBA16UI:
+    case GL_RGBA16F:
         return 8;
     case GL_RGBA32UI:
         return 16;
@@ -73,7 +76,9 @@ size_t vtTexture_Bytes(const vtTexture* texture)
         return 0;
     }
     size_t layers = texture->layers > 0 ? (size_t)texture->layers : 1;
-    return bytesPerTexel(texture->format) * (size_t)texture->width * (size_t)texture->height * layers;
+    size_t bytes = bytesPerTexel(texture->format) * (size_t)texture->width * (size_t)texture->height * layers;
+    // Images of materials (gl/image_array.h) alone have smaller levels: another third.
+    return texture->format == GL_SRGB8_ALPHA8 ? bytes + bytes / 3 : bytes;
 }
 
 void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, int unit)

@@ -1,31 +1,36 @@
 #include "passes/shade.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
+#include "gl/lighting_texture.h"
 #include "shaders.h"
 
 #define VT_SHADE_SAMPLERS                                                                                    \
     {                                                                                                        \
-        "u_paths", "u_ends", "u_lights", "u_asides", "u_surface", "u_environment", "u_objects", "u_triangles", \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_cubeColumns", "u_attributes", "u_images",   \
-            "u_lighting"                                                                                       \
+        "u_paths", "u_ends", "u_lights", "u_asides", "u_surface", "u_environment", "u_objects",              \
+            "u_triangles", "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_cubeColumns",              \
+            "u_attributes", "u_images", "u_lighting"                                                         \
     }
 
 // By whether there is something opaque, and a first surface.
 static const vtProgramDef programDefs[2][2] = {
     {{.name = "shade blended",
       .vertex = {&vtChunk_screen_vert},
-      .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics, &vtChunk_shade_frag},
+      .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics,
+                   &vtChunk_shade_frag},
       .samplers = VT_SHADE_SAMPLERS},
      {.name = "shade",
       .vertex = {&vtChunk_screen_vert},
-      .fragment = {&vtChunk_with_surface, &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics,
-                   &vtChunk_shade_frag},
+      .fragment = {&vtChunk_with_surface, &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects,
+                   &vtChunk_optics, &vtChunk_shade_frag},
       .samplers = VT_SHADE_SAMPLERS}},
     {{.name = "shade opaque blended",
       .vertex = {&vtChunk_screen_vert},
-      .fragment = {&vtChunk_with_opaque, &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics,
-                   &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh, &vtChunk_search_exact,
-                   &vtChunk_search_opaque, &vtChunk_lighting, &vtChunk_shading, &vtChunk_shade_frag},
+      .fragment = {&vtChunk_with_opaque, &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects,
+                   &vtChunk_optics, &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
+                   &vtChunk_search_exact, &vtChunk_search_opaque, &vtChunk_lighting, &vtChunk_shading,
+                   &vtChunk_shade_frag},
       .samplers = VT_SHADE_SAMPLERS},
      {.name = "shade opaque",
       .vertex = {&vtChunk_screen_vert},
@@ -43,8 +48,37 @@ vtResult vtShadePass_Create(vtShadePass* pass, const vtGL* gl, vtError* error)
     return vtCheckGL(gl, "creating the environment", error);
 }
 
+/// A copy whose picture, if it has one, is at most 512 wide: enough for light on surfaces.
+static vtResult shrinkEnvironment(const vtEnvironment* environment, vtEnvironment* shrunk, vtError* error)
+{
+    *shrunk = *environment;
+    if (environment->kind != vt_environmentImage) {
+        return vt_ok;
+    }
+    const int factor = (environment->width + 511) / 512;
+    shrunk->width = environment->width / factor;
+    shrunk->height = environment->height / factor > 0 ? environment->height / factor : 1;
+    shrunk->pixels = calloc((size_t)shrunk->width * (size_t)shrunk->height, 3 * sizeof(float));
+    if (shrunk->pixels == NULL) {
+        return vtFail(error, vt_errorMemory, "environment: out of memory");
+    }
+    const int down = environment->height < factor ? environment->height : factor;
+    for (int y = 0; y < shrunk->height * down; ++y) {
+        for (int x = 0; x < shrunk->width * factor; ++x) {
+            const float* from =
+                environment->pixels + 3 * ((size_t)y * (size_t)environment->width + (size_t)x);
+            float* to =
+                shrunk->pixels + 3 * ((size_t)(y / down) * (size_t)shrunk->width + (size_t)(x / factor));
+            for (int k = 0; k < 3; ++k) {
+                to[k] += from[k] / (float)(factor * down);
+            }
+        }
+    }
+    return vt_ok;
+}
+
 vtResult vtShadePass_SetEnvironment(vtShadePass* pass, const vtGL* gl, const vtEnvironment* environment,
-                                      vtError* error)
+                                    vtError* error)
 {
     bool isImage = environment->kind == vt_environmentImage;
     int width = isImage ? environment->width : 1, height = isImage ? environment->height : 1;
@@ -69,13 +103,22 @@ vtResult vtShadePass_SetEnvironment(vtShadePass* pass, const vtGL* gl, const vtE
         vtTexture_Destroy(&fresh, gl);
         return result;
     }
+    vtEnvironment light;
+    result = shrinkEnvironment(environment, &light, error);
+    if (result != vt_ok) {
+        vtTexture_Destroy(&fresh, gl);
+        return result;
+    }
     vtTexture_Destroy(&pass->environment, gl);
+    vtTexture_Destroy(&pass->lighting, gl);
+    vtDestroyEnvironment(&pass->light);
     pass->environment = fresh;
+    pass->light = light;
     return vt_ok;
 }
 
-vtResult vtShadePass_Prepare(vtShadePass* pass, const vtGL* gl, int width, int height, bool opaque, bool surface,
-                             vtError* error)
+vtResult vtShadePass_Prepare(vtShadePass* pass, const vtGL* gl, int width, int height, bool opaque,
+                             bool surface, vtError* error)
 {
     vtResult result = vtSucceed(error);
     if (pass->programs[opaque][surface] == 0) {
@@ -84,6 +127,14 @@ vtResult vtShadePass_Prepare(vtShadePass* pass, const vtGL* gl, int width, int h
     if (result == vt_ok && vtTexture_Resize(&pass->radiance, gl, GL_RG32UI, width, height, 0)) {
         vtAttachment color = {&pass->radiance, 0};
         result = vtMakeFramebuffer(gl, "shade", &color, 1, NULL, &pass->framebuffer, error);
+    }
+    if (result == vt_ok && opaque && pass->lighting.name == 0) {
+        vtLighting lighting;
+        result = vtCreateLighting(&pass->light, &lighting, error);
+        if (result == vt_ok) {
+            result = vtLightingTexture_Upload(&pass->lighting, gl, &lighting, error);
+            vtDestroyLighting(&lighting);
+        }
     }
     return result;
 }
@@ -108,8 +159,8 @@ void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInpu
                                 &inputs->cube->intervals,
                                 &inputs->cube->columns,
                                 &scene->attributes,
-                                inputs->images,
-                                inputs->lighting};
+                                &scene->images,
+                                &pass->lighting};
     for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
         if (units[unit] != NULL && units[unit]->name != 0) {
             vtTexture_Bind(units[unit], gl, unit);
@@ -125,11 +176,14 @@ void vtShadePass_Destroy(vtShadePass* pass, const vtGL* gl)
     }
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtTexture_Destroy(&pass->environment, gl);
+    vtTexture_Destroy(&pass->lighting, gl);
     vtTexture_Destroy(&pass->radiance, gl);
+    vtDestroyEnvironment(&pass->light);
     *pass = (vtShadePass){0};
 }
 
 size_t vtShadePass_Bytes(const vtShadePass* pass)
 {
-    return vtTexture_Bytes(&pass->environment) + vtTexture_Bytes(&pass->radiance);
+    return vtTexture_Bytes(&pass->environment) + vtTexture_Bytes(&pass->lighting) +
+           vtTexture_Bytes(&pass->radiance);
 }
