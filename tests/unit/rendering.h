@@ -56,6 +56,8 @@ static inline vtFrame smallFrame(vtTechnique technique)
     vtFrame frame = vtDefaultFrame();
     frame.technique = technique;
     frame.width = frame.height = side;
+    frame.ior = 1.5f;
+    frame.fresnel = false; // paths as the reference's: they refract, or reflect where they must
     return frame;
 }
 

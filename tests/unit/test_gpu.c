@@ -4,6 +4,7 @@
 #include "context.h"
 #include "gl/program.h"
 #include "gl/target.h"
+#include "scene/media.h"
 #include "shaders.h"
 #include "testing.h"
 
@@ -102,7 +103,9 @@ static void opticsAreTheSame(void** state)
                 "  bool inside = (i & 1u) == 1u; bool reflected;\n"
                 "  if ((dot(I, G) > 0.0) != inside) I = -I;\n"
                 "  float ior = 1.0 + 1.5 * unit(i + 30000u);\n"
-                "  vec3 T = meetSurface(I, N, G, ior, inside, reflected);\n"
+                "  if (inside) { N = -N; G = -G; }\n"
+                "  vec3 T = meetInterface(I, N, G, inside ? ior : 1.0 / ior, reflected);\n"
+                "  inside = inside == reflected;\n"
                 "  o_result = uvec4(floatBitsToUint(T), (inside ? 1u : 0u) + (reflected ? 2u : 0u)); }\n"};
     static uint32_t results[4 * size * size];
     evaluate(*state, (const vtChunk* const[]){&vtChunk_optics, &body, NULL}, results);
@@ -127,6 +130,47 @@ static void opticsAreTheSame(void** state)
     // At the critical angle and where the triangle's normal takes over, rounding may decide either way.
     assert_true(different <= size * size / 1000);
     assert_true(reflections > 100);
+}
+
+static void fresnelIsTheSame(void** state)
+{
+    static const vtChunk body = {
+        "body",
+        "layout(location = 0) out uvec4 o_result;\n"
+        "void main() { uint i = caseIndex(); float eta = 0.4 + 2.1 * unit(i + 7u);\n"
+        "  o_result = floatBitsToUint(vec4(fresnel(unit(i), eta), fresnel(1.0, eta), 0.0, 0.0)); }\n"};
+    static uint32_t results[4 * size * size];
+    evaluate(*state, (const vtChunk* const[]){&vtChunk_optics, &body, NULL}, results);
+    int different = 0;
+    for (uint32_t i = 0; i < size * size; ++i) {
+        float gpu[2];
+        memcpy(gpu, results + 4 * i, sizeof gpu);
+        const float eta = 0.4f + 2.1f * unit(i + 7u), once = (eta - 1.0f) / (eta + 1.0f);
+        different += fabsf(gpu[0] - vtFresnel(unit(i), eta)) > 1e-3f; // steep near the critical angle
+        assert_near(gpu[1], once * once, 1e-5);
+    }
+    assert_true(different <= size * size / 1000);
+}
+
+static void mediaAreTheSame(void** state)
+{
+    static const vtChunk body = {
+        "body", "layout(location = 0) out uvec4 o_result;\n"
+                "void main() { uint i = caseIndex(); uvec4 m = uvec4(0u);\n"
+                "  for (uint k = 0u; k < 12u; ++k) { m = toggle(m, 1u + uint(5.0 * unit(16u * i + k))); }\n"
+                "  o_result = m + (topOf(m) << 8u) + (holds(m, 3u) ? 65536u : 0u); }\n"};
+    static uint32_t results[4 * size * size];
+    evaluate(*state, (const vtChunk* const[]){&vtChunk_media, &body, NULL}, results);
+    for (uint32_t i = 0; i < size * size; ++i) {
+        vtMedia media = {{0}};
+        for (uint32_t k = 0; k < 12; ++k) {
+            vtMedia_Toggle(&media, 1u + (uint32_t)(5.0f * unit(16 * i + k)));
+        }
+        const uint32_t rest = (vtMedia_Top(&media) << 8) + (vtMedia_Holds(&media, 3) ? 65536u : 0u);
+        for (int k = 0; k < 4; ++k) {
+            assert_int_equal(results[4 * i + (uint32_t)k], media.ids[k] + rest);
+        }
+    }
 }
 
 static void transparencyIsTheSame(void** state)
@@ -205,10 +249,9 @@ static void builtInEnvironmentsAreTheSame(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(opticsAreTheSame),
-        cmocka_unit_test(transparencyIsTheSame),
-        cmocka_unit_test(packedNormalsComeBack),
-        cmocka_unit_test(builtInEnvironmentsAreTheSame),
+        cmocka_unit_test(opticsAreTheSame),      cmocka_unit_test(fresnelIsTheSame),
+        cmocka_unit_test(mediaAreTheSame),       cmocka_unit_test(transparencyIsTheSame),
+        cmocka_unit_test(packedNormalsComeBack), cmocka_unit_test(builtInEnvironmentsAreTheSame),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);
 }
