@@ -11,7 +11,8 @@
 #include "scene/shapes.h"
 #include "trace.h"
 
-static vtResult loadModelFile(const char* path, vtModel* model, vtError* error)
+/// The first mesh of a file's scene.
+static vtResult loadModelFile(const char* path, vtMesh* mesh, float* ior, vtError* error)
 {
     uint8_t* bytes;
     size_t size;
@@ -26,8 +27,15 @@ static vtResult loadModelFile(const char* path, vtModel* model, vtError* error)
     }
     vtModelDef def = {
         .bytes = bytes, .size = size, .name = path, .directory = directory, .readFile = vtReadFileForModel};
-    result = vtLoadModel(&def, model, error);
+    vtScene scene;
+    result = vtLoadScene(&def, &scene, error);
     free(bytes);
+    if (result == vt_ok) {
+        *ior = scene.materials[scene.objects[0].material].ior;
+        *mesh = scene.meshes[0];
+        scene.meshes[0] = (vtMesh){0};
+        vtDestroyScene(&scene);
+    }
     return result;
 }
 
@@ -99,29 +107,30 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
         return vtFail(error, vt_errorArgument,
                       "no model given; name a .glb or .gltf file or a built-in shape (see 'vitrine list')");
     }
-    vtModel model = {0};
-    vtResult result = options->triangles > 0 ? vtCreateFineShape(options->model, (uint32_t)options->triangles,
-                                                                 &model.mesh, error)
-                      : isShape(options->model) ? vtCreateShape(options->model, &model.mesh, error)
-                                                : loadModelFile(options->model, &model, error);
+    vtMesh mesh = {0};
+    float ior = vtDefaultMaterial().ior;
+    vtResult result = options->triangles > 0
+                          ? vtCreateFineShape(options->model, (uint32_t)options->triangles, &mesh, error)
+                      : isShape(options->model) ? vtCreateShape(options->model, &mesh, error)
+                                                : loadModelFile(options->model, &mesh, &ior, error);
     if (result == vt_ok) {
         result = loadEnvironment(options->environment, &input->environment, error);
     }
     if (result != vt_ok) {
-        vtDestroyModel(&model);
+        vtDestroyMesh(&mesh);
         return result;
     }
     if (options->innerDistances || vtFindTechnique(options->technique) == vt_techniqueWyman) {
-        result = measureInnerDistances(&model.mesh, error);
+        result = measureInnerDistances(&mesh, error);
         if (result != vt_ok) {
-            vtDestroyModel(&model);
+            vtDestroyMesh(&mesh);
             vtDestroyEnvironment(&input->environment);
             return result;
         }
     }
-    printNotes(options->model, &model.mesh, options->verbose);
-    input->mesh = model.mesh;
-    input->ior = options->ior > 0.0f ? options->ior : model.ior > 0.0f ? model.ior : vtDefaultFrame().ior;
+    printNotes(options->model, &mesh, options->verbose);
+    input->mesh = mesh;
+    input->ior = options->ior > 0.0f ? options->ior : ior;
     return vtSucceed(error);
 }
 
