@@ -9,6 +9,12 @@
 
 #include "base/error.h"
 
+/// stb copies nothing to nowhere for an empty chunk of a PNG, which C11 leaves undefined.
+static inline void* copyBytes(void* to, const void* from, size_t size)
+{
+    return size > 0 ? memcpy(to, from, size) : to;
+}
+
 // stb's code is not ours to keep free of warnings. Static, so that an embedder's own copy does not clash;
 // the declarations of the decoders left out then count as unused to the end of the file.
 #if defined(__GNUC__)
@@ -25,7 +31,9 @@
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #endif
+#define memcpy copyBytes
 #include <stb/stb_image.h>
+#undef memcpy
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
