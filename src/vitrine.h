@@ -201,16 +201,6 @@ typedef struct vtModelDef {
 /// share it are instances. On failure *scene is zeroed.
 vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error);
 
-typedef struct vtModel {
-    vtMesh mesh; ///< all triangles of the file's scene, in world space
-    float ior;   ///< KHR_materials_ior of the first material used; 0 where the file gives none
-} vtModel;
-
-/// Loads glTF 2.0 (through tinygltf). Everything that can be wrong with a file gives a sentence.
-/// On failure *model is zeroed.
-vtResult vtLoadModel(const vtModelDef* def, vtModel* model, vtError* error);
-void vtDestroyModel(vtModel* model);
-
 // ----------------------------------------------------------------------------------------- environment
 
 typedef enum vtEnvironmentKind {

@@ -80,15 +80,17 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetShape(vtViewer* viewer, const char*
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenModel(vtViewer* viewer, uint8_t* bytes, size_t size,
                                                     const char* name)
 {
-    vtModel model;
+    vtScene scene;
     vtModelDef def = {.bytes = bytes, .size = size, .name = name};
-    vtResult result = vtLoadModel(&def, &model, &viewer->error);
+    vtResult result = vtLoadScene(&def, &scene, &viewer->error);
     free(bytes);
     if (result == vt_ok) {
-        result = showMesh(viewer, &model.mesh);
-    }
-    if (result == vt_ok && model.ior > 0.0f) {
-        viewer->frame.ior = model.ior;
+        const float ior = scene.materials[scene.objects[0].material].ior;
+        vtMesh mesh = scene.meshes[0];
+        scene.meshes[0] = (vtMesh){0};
+        vtDestroyScene(&scene);
+        result = showMesh(viewer, &mesh);
+        viewer->frame.ior = result == vt_ok && ior != vtDefaultMaterial().ior ? ior : viewer->frame.ior;
     }
     return sentence(viewer, result);
 }

@@ -9,6 +9,12 @@
 
 #include "base/error.h"
 
+/// stb copies nothing to nowhere for an empty chunk of a PNG, which C11 leaves undefined.
+static inline void* copyBytes(void* to, const void* from, size_t size)
+{
+    return size > 0 ? memcpy(to, from, size) : to;
+}
+
 // stb's code is not ours to keep free of warnings. Static, so that an embedder's own copy does not clash;
 // the declarations of the decoders left out then count as unused to the end of the file.
 #if defined(__GNUC__)
@@ -25,7 +31,9 @@
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #endif
+#define memcpy copyBytes
 #include <stb/stb_image.h>
+#undef memcpy
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
@@ -193,6 +201,55 @@ vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, f
     *width = columns;
     *height = rows;
     return vtSucceed(error);
+}
+
+#ifdef VT_HDR_ONLY
+static vtResult fillImage(const uint8_t* bytes, int length, const char* name, vtImage* image, vtError* error)
+{
+    image->bytes = malloc((size_t)length);
+    if (image->bytes == NULL) {
+        return vtFail(error, vt_errorMemory, "no memory for the %d bytes of picture '%s'; scale it down",
+                      length, name);
+    }
+    memcpy(image->bytes, bytes, (size_t)length);
+    image->size = (size_t)length;
+    return vtSucceed(error);
+}
+#else
+static vtResult fillImage(const uint8_t* bytes, int length, const char* name, vtImage* image, vtError* error)
+{
+    // The header first, so that a picture that is too large costs no memory.
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_memory(bytes, length, &width, &height, &channels)) {
+        return failDecode(name, error);
+    }
+    if (checkSides(name, width, height, error) != vt_ok) {
+        return vt_errorFormat;
+    }
+    image->pixels = stbi_load_from_memory(bytes, length, &width, &height, &channels, 4);
+    if (image->pixels == NULL) {
+        return failDecode(name, error);
+    }
+    image->width = width;
+    image->height = height;
+    return vtSucceed(error);
+}
+#endif
+
+vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage* image, vtError* error)
+{
+    assert(image != NULL && (bytes != NULL || size == 0));
+    *image = (vtImage){0};
+    name = name != NULL ? name : "";
+    const bool isPng = size >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0;
+    const bool isJpeg = size >= 3 && memcmp(bytes, "\xFF\xD8\xFF", 3) == 0;
+    if ((!isPng && !isJpeg) || size > INT_MAX) {
+        return vtFail(error, vt_errorFormat,
+                      "picture '%s' is neither PNG nor JPEG; it is damaged or of another format, so save it "
+                      "again as one of these",
+                      name);
+    }
+    return fillImage(bytes, (int)size, name, image, error);
 }
 
 /// The range every encoder shares.

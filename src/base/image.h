@@ -24,6 +24,11 @@ vtResult vtLinearise(const uint8_t* samples, int channels, const char* name, int
 vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, float** pixels, int* width,
                              int* height, vtError* error);
 
+/// Decodes PNG or JPEG to RGBA as the file has it (sRGB). A build without these decoders keeps a copy of the
+/// file in image->bytes instead. `name` goes into the error sentence. Fails with vt_errorFormat or
+/// vt_errorMemory; then *image is zeroed.
+vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage* image, vtError* error);
+
 /// Encodes 8-bit pixels, top row first; `channels` is 1 (grey), 3 (RGB) or 4 (RGBA).
 vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
                      size_t* size, vtError* error);

@@ -1,10 +1,10 @@
-// glTF 2.0 to one mesh, through tinygltf.
+// glTF 2.0 to a scene, through tinygltf.
 //
 // tinygltf 2.7 turns JSON into structs but trusts the file in places (a GLB's BIN chunk is read 8 bytes too
 // far, an embedded picture is taken from wherever its offset points, an empty buffer aborts without
 // exceptions, an index above 2^32 wraps round, deep nesting overflows the stack). So it is given only what
-// was looked through: the container is split here, JSON and buffers are gltf_document.cpp's, and nothing
-// that tinygltf returns is used as an index or an offset before gltf_scene.cpp checked it.
+// was looked through: the container is split here, JSON, buffers and pictures are gltf_document.cpp's, and
+// nothing that tinygltf returns is used as an index or an offset before it was checked.
 
 #include "scene/gltf.h"
 
@@ -44,6 +44,12 @@ std::string quotable(std::string text)
         text.pop_back();
     }
     return text.size() > 120 ? text.substr(0, 117) + "..." : text;
+}
+
+std::string label(int index, const std::string& name)
+{
+    const std::string text = quotable(name);
+    return std::to_string(index) + (text.empty() ? "" : ", " + text);
 }
 
 uint32_t readU32(const uint8_t* p)
@@ -112,38 +118,18 @@ static bool splitFile(Loader& loader, Bytes* text, Bytes* bin)
 
 } // namespace gltf
 
-extern "C" vtResult vtLoadModel(const vtModelDef* def, vtModel* model, vtError* error)
-{
-    assert(def != nullptr && model != nullptr && (def->bytes != nullptr || def->size == 0));
-    *model = vtModel{};
-    gltf::Loader loader = {def, error};
-    gltf::Bytes text, bin;
-    if (!splitFile(loader, &text, &bin) || !parseDocument(loader, text, bin) || !collectParts(loader) ||
-        !buildMesh(loader, &model->mesh)) {
-        return loader.result;
-    }
-    model->ior = (float)loader.ior;
-    return vtSucceed(error);
-}
-
-extern "C" void vtDestroyModel(vtModel* model)
-{
-    if (model != nullptr) {
-        vtDestroyMesh(&model->mesh);
-        *model = vtModel{};
-    }
-}
-
 extern "C" vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error)
 {
-    vtModel model;
+    assert(def != nullptr && scene != nullptr && (def->bytes != nullptr || def->size == 0));
     *scene = vtScene{};
-    vtResult result = vtLoadModel(def, &model, error);
-    if (result == vt_ok) {
-        vtMaterial material = vtDefaultMaterial();
-        material.ior = model.ior > 0.0f ? model.ior : material.ior;
-        result = vtCreateMeshScene(&model.mesh, &material, scene, error);
-        vtDestroyModel(&model);
+    gltf::Loader loader = {def, scene, error};
+    gltf::Bytes text, bin;
+    std::vector<uint32_t> materialOf;
+    if (!splitFile(loader, &text, &bin) || !parseDocument(loader, text, bin) || !collectNodes(loader) ||
+        !makeMaterials(loader, &materialOf) || !makeMeshes(loader, materialOf) || !makeObjects(loader) ||
+        !makeCameras(loader)) {
+        vtDestroyScene(scene);
+        return loader.result;
     }
-    return result;
+    return vtSucceed(error);
 }

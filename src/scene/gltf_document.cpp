@@ -1,4 +1,4 @@
-// From text to tinygltf's structs, and the buffers they refer to.
+// From text to tinygltf's structs, and the buffers and pictures they refer to.
 
 #include <fstream> // tinygltf still names std::ofstream with TINYGLTF_NO_FS
 #include <sstream>
@@ -64,11 +64,19 @@ static bool isOneOf(const std::string& word, std::initializer_list<const char*> 
 static bool isWanted(const std::string& key, int depth)
 {
     return depth == 0 ? isOneOf(key, {"asset", "buffers", "bufferViews", "accessors", "meshes", "nodes",
-                                      "scenes", "scene", "materials", "extensionsUsed", "extensionsRequired"})
+                                      "scenes", "scene", "materials", "textures", "images", "cameras",
+                                      "extensionsUsed", "extensionsRequired"})
                       : !isOneOf(key, {"extras", "min", "max", "targets", "weights"});
 }
 
-/// Indices and offsets must fit an int. 12.0 is as good as 12 in JSON, but tinygltf would ignore it.
+static bool isAttribute(const std::string& key)
+{
+    return isOneOf(key, {"POSITION", "NORMAL"}) || key.compare(0, 9, "TEXCOORD_") == 0 ||
+           key.compare(0, 6, "COLOR_") == 0;
+}
+
+/// Indices and offsets must fit an int. 12.0 is as good as 12 in JSON, but tinygltf would ignore it; and it
+/// would wrap other large whole numbers round.
 static bool tidyValue(Loader& loader, const std::string& key, Json& value)
 {
     if (value.is_number_float()) {
@@ -76,9 +84,12 @@ static bool tidyValue(Loader& loader, const std::string& key, Json& value)
         if (number == std::floor(number) && std::fabs(number) <= INT32_MAX) {
             value = number < 0 ? Json((int64_t)number) : Json((uint64_t)number);
         }
+    } else if (value.is_number() && std::fabs(value.get<double>()) > INT32_MAX) {
+        value = value.get<double>();
     }
-    if (isOneOf(key, {"bufferView", "buffer", "byteOffset", "byteLength", "byteStride", "componentType",
-                      "count", "mesh", "material", "mode", "indices", "scene", "POSITION", "NORMAL"}) &&
+    if ((isAttribute(key) || isOneOf(key, {"bufferView", "buffer", "byteOffset", "byteLength", "byteStride",
+                                           "componentType", "count", "mesh", "material", "mode", "indices",
+                                           "scene", "camera", "index", "texCoord", "source"})) &&
         !(value.is_number_unsigned() && value.get<uint64_t>() <= INT32_MAX)) {
         return loader.fail(vt_errorFormat,
                            "its JSON has a '%s' that is not a whole number from 0 to %d" GLTF_DAMAGED,
@@ -141,7 +152,7 @@ static bool parseStructs(Loader& loader, const Json& document)
                            quotable(loader.model.asset.version).c_str());
     }
     for (const std::string& extension : loader.model.extensionsRequired) {
-        // Looks that the glass replaces anyway; all else may change where the triangles are.
+        // Looks, of which what is known is drawn; all else may change where the triangles are.
         const bool harmless = extension.rfind("KHR_materials_", 0) == 0 ||
                               extension.rfind("KHR_texture_", 0) == 0 ||
                               extension.rfind("EXT_texture_", 0) == 0 || extension == "KHR_lights_punctual";
@@ -169,14 +180,16 @@ static std::string decodePercents(const std::string& uri)
     return path;
 }
 
-static bool readExternal(Loader& loader, const std::string& uri, std::vector<uint8_t>* bytes)
+/// `what` is a buffer or a picture.
+static bool readExternal(Loader& loader, const char* what, const std::string& uri,
+                         std::vector<uint8_t>* bytes)
 {
     const vtModelDef& def = *loader.def;
     std::string path = decodePercents(uri);
     if (def.readFile == nullptr) {
         return loader.fail(
             vt_errorFile,
-            "its buffer '%s' is a file of its own, which cannot be read here; export it as one .glb",
+            "its %s '%s' is a file of its own, which cannot be read here; export it as one .glb", what,
             quotable(path).c_str());
     }
     const std::string directory = def.directory != nullptr ? def.directory : "";
@@ -184,7 +197,7 @@ static bool readExternal(Loader& loader, const std::string& uri, std::vector<uin
     uint8_t* contents = nullptr;
     size_t size = 0;
     if (!def.readFile(path.c_str(), &contents, &size, def.userData)) {
-        return loader.fail(vt_errorFile, "its buffer '%s' cannot be read; put that file beside the model",
+        return loader.fail(vt_errorFile, "its %s '%s' cannot be read; put that file beside the model", what,
                            quotable(path).c_str());
     }
     if (size > 0) {
@@ -212,7 +225,7 @@ static bool loadBuffer(Loader& loader, const Json& entry, size_t index, Bytes bi
         std::string mimeType;
         if (address.compare(0, 5, "data:") != 0) {
             name += " ('" + quotable(address) + "')";
-            if (!readExternal(loader, address, &contents)) {
+            if (!readExternal(loader, "buffer", address, &contents)) {
                 return false;
             }
         } else if (needed > 0 && !tinygltf::DecodeDataURI(&contents, mimeType, address, 0, false)) {
@@ -230,14 +243,56 @@ static bool loadBuffer(Loader& loader, const Json& entry, size_t index, Bytes bi
     return true;
 }
 
+/// Notes where the pictures are. What is wrong with one matters only if a material uses it.
+static void listPictures(Loader& loader, const Json& images)
+{
+    for (size_t i = 0; images.is_array() && i < images.size(); ++i) {
+        Picture picture;
+        if (images[i].is_object()) {
+            const auto name = images[i].find("name"), uri = images[i].find("uri"),
+                       view = images[i].find("bufferView"), end = images[i].end();
+            picture.name = name != end && name->is_string() ? name->get<std::string>() : "";
+            picture.uri = uri != end && uri->is_string() ? uri->get<std::string>() : "";
+            picture.bufferView = view != end && view->is_number_unsigned() ? view->get<int>() : -1;
+        }
+        loader.pictures.push_back(std::move(picture));
+    }
+}
+
+bool openPicture(Loader& loader, int index, std::vector<uint8_t>* contents, Bytes* bytes)
+{
+    const Picture& picture = loader.pictures[(size_t)index];
+    const std::string name = "image " + label(index, picture.name);
+    std::string mimeType;
+    if (picture.uri.empty()) {
+        return picture.bufferView >= 0
+                   ? openView(loader, name, picture.bufferView, wholeView, bytes)
+                   : loader.fail(vt_errorFormat, "%s has neither a uri nor a buffer view" GLTF_DAMAGED,
+                                 name.c_str());
+    }
+    if (picture.uri.compare(0, 5, "data:") != 0) {
+        if (!readExternal(loader, "picture", picture.uri, contents)) {
+            return false;
+        }
+    } else if (!tinygltf::DecodeDataURI(contents, mimeType, picture.uri, 0, false)) {
+        return loader.fail(vt_errorFormat, "the data URI of %s cannot be decoded; export it as .glb",
+                           name.c_str());
+    }
+    *bytes = {contents->data(), contents->size()};
+    return true;
+}
+
 bool parseDocument(Loader& loader, Bytes text, Bytes bin)
 {
     Json document;
     if (!parseJson(loader, text, &document)) {
         return false;
     }
-    const Json buffers = std::move(document["buffers"]); // null where there are none
-    document.erase("buffers"); // loaded below, so that tinygltf meets no file and no data
+    // Loaded below, so that tinygltf meets no file and no data. Null where there are none.
+    const Json buffers = std::move(document["buffers"]);
+    const Json images = std::move(document["images"]);
+    document.erase("buffers");
+    document.erase("images");
     if (!parseStructs(loader, document)) {
         return false;
     }
@@ -246,6 +301,7 @@ bool parseDocument(Loader& loader, Bytes text, Bytes bin)
             return false;
         }
     }
+    listPictures(loader, images);
     return true;
 }
 

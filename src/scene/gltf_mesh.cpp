@@ -1,13 +1,31 @@
-// From parts to one mesh: transforms applied, strips and fans taken apart.
+// From parts to meshes, in their own coordinates: strips and fans taken apart, parts of a material joined.
 
 #include "scene/gltf.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
+#include <memory>
 
 namespace gltf
 {
+
+struct Free {
+    void operator()(void* memory) const
+    {
+        free(memory);
+    }
+};
+
+/// Numbers of a mesh to be: from malloc, since they may be many, and running short must give a sentence.
+template <typename T> using Block = std::unique_ptr<T[], Free>;
+
+/// The parts of one mesh to be, and what they have together.
+struct Group {
+    std::vector<const Part*> parts = {};
+    unsigned long long vertexCount = 0, indexCount = 0;
+    bool hasNormals = false, hasTexcoords = false, hasColors = false;
+};
 
 uint32_t readIndex(const Stream& indices, size_t i)
 {
@@ -22,63 +40,32 @@ uint32_t readIndex(const Stream& indices, size_t i)
     }
 }
 
-static void readVector(const Stream& stream, size_t i, double v[3])
+float readNumber(const Stream& stream, size_t i, size_t k)
 {
-    for (size_t k = 0; k < 3; ++k) {
-        const uint32_t bits = readU32(stream.data + i * stream.stride + 4 * k);
-        float value;
-        memcpy(&value, &bits, sizeof value);
-        v[k] = (double)value;
+    const uint8_t* p = stream.data + i * stream.stride;
+    if (stream.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
+        return (float)p[k] / 255.0f;
     }
+    if (stream.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+        return (float)((uint32_t)p[2 * k] | (uint32_t)p[2 * k + 1] << 8) / 65535.0f;
+    }
+    const uint32_t bits = readU32(p + 4 * k);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
 }
 
-/// The matrix for normals and whether the transform mirrors. The cofactors are the inverse transpose times
-/// the determinant, so they exist for flat transforms too; the sign is put right where it is mirrored.
-static bool normalMatrix(const Matrix& toWorld, double cofactors[9])
+/// Copies a stream; what the part lacks stays `missing`.
+static void writeNumbers(const Part& part, const Stream& stream, size_t components, float missing, float* to)
 {
-    const double* m = toWorld.m;
-    for (int column = 0; column < 3; ++column) {
-        const double* a = m + 4 * ((column + 1) % 3);
-        const double* b = m + 4 * ((column + 2) % 3);
-        cofactors[3 * column + 0] = a[1] * b[2] - a[2] * b[1];
-        cofactors[3 * column + 1] = a[2] * b[0] - a[0] * b[2];
-        cofactors[3 * column + 2] = a[0] * b[1] - a[1] * b[0];
-    }
-    const bool mirrored = m[0] * cofactors[0] + m[1] * cofactors[1] + m[2] * cofactors[2] < 0.0;
-    for (int i = 0; i < 9 && mirrored; ++i) {
-        cofactors[i] = -cofactors[i];
-    }
-    return mirrored;
-}
-
-static void writePositions(const Part& part, float* positions)
-{
-    const double* m = part.toWorld.m;
     for (size_t i = 0; i < part.positions.count; ++i) {
-        double v[3];
-        readVector(part.positions, i, v);
-        for (size_t k = 0; k < 3; ++k) {
-            positions[3 * i + k] = (float)(m[k] * v[0] + m[4 + k] * v[1] + m[8 + k] * v[2] + m[12 + k]);
+        for (size_t k = 0; k < components; ++k) {
+            to[components * i + k] = stream.data != nullptr ? readNumber(stream, i, k) : missing;
         }
     }
 }
 
-static void writeNormals(const Part& part, const double cofactors[9], float* normals)
-{
-    for (size_t i = 0; i < part.normals.count; ++i) {
-        double v[3], n[3];
-        readVector(part.normals, i, v);
-        for (size_t k = 0; k < 3; ++k) {
-            n[k] = cofactors[k] * v[0] + cofactors[3 + k] * v[1] + cofactors[6 + k] * v[2];
-        }
-        const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        for (size_t k = 0; k < 3; ++k) {
-            normals[3 * i + k] = (float)(length > 0.0 ? n[k] / length : n[k]); // NaN passes on to be refused
-        }
-    }
-}
-
-static void writeTriangles(const Part& part, bool mirrored, uint32_t firstVertex, uint32_t* indices)
+static void writeTriangles(const Part& part, uint32_t firstVertex, uint32_t* indices)
 {
     const auto corner = [&](size_t i) {
         return firstVertex + (part.indices.data != nullptr ? readIndex(part.indices, i) : (uint32_t)i);
@@ -92,68 +79,130 @@ static void writeTriangles(const Part& part, bool mirrored, uint32_t firstVertex
         } else {
             to[0] = corner(3 * t), to[1] = corner(3 * t + 1), to[2] = corner(3 * t + 2);
         }
-        if (mirrored) {
-            std::swap(to[1], to[2]);
-        }
     }
 }
 
-/// Normals that a part lacks stay zero, and vtCreateMesh computes those; `normals` may be null.
-static void writeParts(const std::vector<Part>& parts, float* positions, float* normals, uint32_t* indices)
+/// vtCreateMesh checks positions and normals; this the rest, which it takes as it is.
+static bool checkShares(Loader& loader, const std::string& name, float* texcoords, float* colors,
+                        size_t vertexCount)
 {
-    size_t vertex = 0;
-    for (const Part& part : parts) {
-        double cofactors[9];
-        const bool mirrored = normalMatrix(part.toWorld, cofactors);
-        writePositions(part, positions + 3 * vertex);
-        if (part.normals.data != nullptr) {
-            writeNormals(part, cofactors, normals + 3 * vertex);
+    for (size_t i = 0; texcoords != nullptr && i < 2 * vertexCount; ++i) {
+        if (!std::isfinite(texcoords[i])) {
+            return loader.fail(
+                vt_errorGeometry,
+                "mesh '%s': vertex %zu has a texture coordinate that is not finite; export it again",
+                name.c_str(), i / 2);
         }
-        writeTriangles(part, mirrored, (uint32_t)vertex, indices);
-        vertex += part.positions.count;
-        indices += 3 * part.triangleCount;
     }
+    for (size_t i = 0; colors != nullptr && i < 3 * vertexCount; ++i) {
+        if (!std::isfinite(colors[i])) {
+            return loader.fail(vt_errorGeometry,
+                               "mesh '%s': vertex %zu has a colour that is not finite; export it again",
+                               name.c_str(), i / 3);
+        }
+        colors[i] = std::clamp(colors[i], 0.0f, 1.0f);
+    }
+    return true;
 }
 
-bool buildMesh(Loader& loader, vtMesh* mesh)
+static bool makeMesh(Loader& loader, const Group& group, const std::string& name, vtMesh* mesh)
 {
-    unsigned long long vertexCount = 0, indexCount = 0;
-    bool hasNormals = false;
-    for (const Part& part : loader.parts) {
-        vertexCount += part.positions.count;
-        indexCount += 3ull * part.triangleCount;
-        hasNormals = hasNormals || part.normals.data != nullptr;
+    if (group.vertexCount > UINT32_MAX || group.indexCount > UINT32_MAX ||
+        group.vertexCount > SIZE_MAX / 12 || group.indexCount > SIZE_MAX / 4) {
+        return loader.fail(
+            vt_errorGeometry,
+            "mesh '%s' has %llu vertices and %llu indices, more than 32 bits can count; simplify it",
+            name.c_str(), group.vertexCount, group.indexCount);
     }
-    if (indexCount == 0) {
-        return loader.fail(vt_errorGeometry,
-                           "its scene has no triangles; export it with its meshes, in a scene");
-    }
-    if (vertexCount > UINT32_MAX || indexCount > UINT32_MAX || vertexCount > SIZE_MAX / 12 ||
-        indexCount > SIZE_MAX / 4) {
-        return loader.fail(vt_errorGeometry,
-                           "it has %llu vertices and %llu indices, more than 32 bits can count; simplify it",
+    const size_t vertexCount = (size_t)group.vertexCount, indexCount = (size_t)group.indexCount;
+    const auto floats = [&](bool wanted, size_t components) {
+        return Block<float>(wanted ? (float*)malloc(vertexCount * components * sizeof(float)) : nullptr);
+    };
+    const Block<float> positions = floats(true, 3), normals = floats(group.hasNormals, 3),
+                       texcoords = floats(group.hasTexcoords, 2), colors = floats(group.hasColors, 3);
+    const Block<uint32_t> indices((uint32_t*)malloc(indexCount * sizeof(uint32_t)));
+    if (!positions || !indices || (group.hasNormals && !normals) || (group.hasTexcoords && !texcoords) ||
+        (group.hasColors && !colors)) {
+        return loader.fail(vt_errorMemory, "no memory for %zu vertices and %zu indices; simplify it",
                            vertexCount, indexCount);
     }
-    float* positions = (float*)malloc((size_t)vertexCount * 3 * sizeof(float));
-    float* normals = hasNormals ? (float*)calloc((size_t)vertexCount * 3, sizeof(float)) : nullptr;
-    uint32_t* indices = (uint32_t*)malloc((size_t)indexCount * sizeof(uint32_t));
-    if (positions == nullptr || indices == nullptr || (hasNormals && normals == nullptr)) {
-        loader.fail(vt_errorMemory, "no memory for %llu vertices and %llu indices; simplify it", vertexCount,
-                    indexCount);
-    } else {
-        writeParts(loader.parts, positions, normals, indices);
-        vtMeshDef def = {};
-        def.positions = positions;
-        def.normals = normals;
-        def.indices = indices;
-        def.vertexCount = (uint32_t)vertexCount;
-        def.indexCount = (uint32_t)indexCount;
-        loader.result = vtCreateMesh(&def, loader.def->name, mesh, loader.error);
+    size_t vertex = 0, index = 0;
+    for (const Part* part : group.parts) {
+        writeNumbers(*part, part->positions, 3, 0.0f, positions.get() + 3 * vertex);
+        if (normals) { // those of zero length are computed by vtCreateMesh
+            writeNumbers(*part, part->normals, 3, 0.0f, normals.get() + 3 * vertex);
+        }
+        if (texcoords) {
+            writeNumbers(*part, part->texcoords, 2, 0.0f, texcoords.get() + 2 * vertex);
+        }
+        if (colors) { // linear already
+            writeNumbers(*part, part->colors, 3, 1.0f, colors.get() + 3 * vertex);
+        }
+        writeTriangles(*part, (uint32_t)vertex, indices.get() + index);
+        vertex += part->positions.count;
+        index += 3 * part->triangleCount;
     }
-    free(positions);
-    free(normals);
-    free(indices);
-    return loader.result == vt_ok;
+    if (!checkShares(loader, name, texcoords.get(), colors.get(), vertexCount)) {
+        return false;
+    }
+    vtMeshDef def = {};
+    def.positions = positions.get();
+    def.normals = normals.get();
+    def.indices = indices.get();
+    def.vertexCount = (uint32_t)vertexCount;
+    def.indexCount = (uint32_t)indexCount;
+    def.texcoords = texcoords.get();
+    def.colors = colors.get();
+    vtError error = {};
+    const vtResult result = vtCreateMesh(&def, name.c_str(), mesh, &error);
+    return result == vt_ok || loader.fail(result, "%s", error.message);
+}
+
+/// Adds the part to the group of its material, in the order in which the materials come.
+static void addPart(const Part& part, uint32_t material, Source& source, std::vector<Group>& groups)
+{
+    const size_t at = (size_t)(std::find(source.materials.begin(), source.materials.end(), material) -
+                               source.materials.begin());
+    if (at == groups.size()) {
+        source.materials.push_back(material);
+        groups.push_back(Group());
+    }
+    Group& group = groups[at];
+    group.parts.push_back(&part);
+    group.vertexCount += part.positions.count;
+    group.indexCount += 3ull * part.triangleCount;
+    group.hasNormals = group.hasNormals || part.normals.data != nullptr;
+    group.hasTexcoords = group.hasTexcoords || part.texcoords.data != nullptr;
+    group.hasColors = group.hasColors || part.colors.data != nullptr;
+}
+
+bool makeMeshes(Loader& loader, const std::vector<uint32_t>& materialOf)
+{
+    vtScene* scene = loader.scene;
+    std::vector<std::vector<Group>> groups(loader.reached.size());
+    size_t count = 0;
+    for (size_t i = 0; i < groups.size(); ++i) {
+        Source& source = loader.sources[(size_t)loader.reached[i]];
+        for (const Part& part : source.parts) {
+            addPart(part, materialOf[(size_t)(part.material + 1)], source, groups[i]);
+        }
+        count += groups[i].size();
+    }
+    if (!loader.allocate(count, &scene->meshes)) {
+        return false;
+    }
+    for (size_t i = 0; i < groups.size(); ++i) {
+        const int index = loader.reached[i];
+        Source& source = loader.sources[(size_t)index];
+        const std::string name = label(index, loader.model.meshes[(size_t)index].name);
+        for (const Group& group : groups[i]) {
+            if (!makeMesh(loader, group, name, &scene->meshes[scene->meshCount])) {
+                return false;
+            }
+            source.meshes.push_back(scene->meshCount++);
+        }
+    }
+    return true;
 }
 
 } // namespace gltf

@@ -1,4 +1,4 @@
-// libFuzzer target: whatever the bytes, vtLoadModel returns a mesh or a sentence.
+// libFuzzer target: whatever the bytes, vtLoadScene returns a scene or a sentence.
 #include <stdlib.h>
 
 #include "vitrine.h"
@@ -8,12 +8,12 @@ int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size)
 {
     const vtModelDef def = {.bytes = bytes, .size = size, .name = "fuzz"};
-    vtModel model;
+    vtScene scene;
     vtError error = {0};
-    const vtResult result = vtLoadModel(&def, &model, &error);
-    if ((result == vt_ok) != (model.mesh.indexCount > 0) || (result != vt_ok && error.message[0] == '\0')) {
+    const vtResult result = vtLoadScene(&def, &scene, &error);
+    if ((result == vt_ok) != (scene.objectCount > 0) || (result != vt_ok && error.message[0] == '\0')) {
         abort();
     }
-    vtDestroyModel(&model);
+    vtDestroyScene(&scene);
     return 0;
 }

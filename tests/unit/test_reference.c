@@ -143,17 +143,17 @@ static void agreesWithCycles(void** state)
         uint8_t* truthBytes = readData("truth", cases[i].model, "pfm", &truthSize);
         if (bytes != NULL && truthBytes != NULL) {
             vtError error;
-            vtModel model;
+            vtScene scene;
             vtModelDef def = {.bytes = bytes, .size = size, .name = cases[i].model};
             float* truth;
             int width, height;
-            assert_ok(vtLoadModel(&def, &model, &error), error);
+            assert_ok(vtLoadScene(&def, &scene, &error), error);
             assert_ok(vtDecodePfm(truthBytes, truthSize, cases[i].model, &truth, &width, &height, &error),
                       error);
-            compareWithTruth(&cases[i], &model.mesh, truth, width, height);
+            compareWithTruth(&cases[i], &scene.meshes[0], truth, width, height);
             ++measured;
             free(truth);
-            vtDestroyModel(&model);
+            vtDestroyScene(&scene);
         }
         free(bytes);
         free(truthBytes);

@@ -99,16 +99,16 @@ static void directionsAgreeWithCycles(void** state)
             continue;
         }
         vtError error;
-        vtModel model;
+        vtScene scene;
         float* truth;
         int width, height;
         assert_ok(
-            vtLoadModel(&(vtModelDef){.bytes = bytes, .size = size, .name = cases[i].model}, &model, &error),
+            vtLoadScene(&(vtModelDef){.bytes = bytes, .size = size, .name = cases[i].model}, &scene, &error),
             error);
         assert_ok(vtDecodePfm(truthBytes, truthSize, cases[i].model, &truth, &width, &height, &error), error);
         assert_int_equal(width, side);
         assert_int_equal(height, side);
-        assert_ok(vtRenderer_SetMesh(fixture->renderer, &model.mesh, &error), error);
+        assert_ok(vtRenderer_SetMesh(fixture->renderer, &scene.meshes[0], &error), error);
 
         print_message("%s\n", cases[i].model);
         vtDirectionError two = measure(fixture, vt_techniqueLayered, 2, truth);
@@ -124,7 +124,7 @@ static void directionsAgreeWithCycles(void** state)
         free(bytes);
         free(truthBytes);
         free(truth);
-        vtDestroyModel(&model);
+        vtDestroyScene(&scene);
     }
     if (measured == 0) {
         skip();
