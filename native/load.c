@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "files.h"
-#include "reference.h"
 #include "scene/shapes.h"
 #include "trace.h"
 
@@ -56,21 +55,6 @@ static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vt
     return result;
 }
 
-/// By the reference tracer where it is built in, else by the core's own search.
-static vtResult measureInnerDistances(vtMesh* mesh, vtError* error)
-{
-    vtReference* reference = NULL;
-    float* distances = malloc(mesh->vertexCount * sizeof *distances);
-    if (distances != NULL && vtCreateReference(mesh, &reference, NULL) == vt_ok &&
-        vtReference_InnerDistances(reference, mesh, distances, NULL) == vt_ok) {
-        mesh->innerDistances = distances;
-    } else {
-        free(distances);
-    }
-    vtDestroyReference(reference);
-    return vtComputeInnerDistances(mesh, error);
-}
-
 static void printNotes(const char* name, const vtMesh* mesh, bool verbose)
 {
     if (mesh->openEdgeCount > 0) {
@@ -112,7 +96,7 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
         return result;
     }
     if (options->innerDistances || vtFindTechnique(options->technique) == vt_techniqueWyman) {
-        result = measureInnerDistances(&model.mesh, error);
+        result = vtComputeInnerDistances(&model.mesh, error);
         if (result != vt_ok) {
             vtDestroyModel(&model);
             vtDestroyEnvironment(&input->environment);
