@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "bench.h"
+#include "trace.h"
 
 static const double timeLimit = 40.0; // seconds a case
 
@@ -190,6 +191,7 @@ static vtResult timeRows(const vtOptions* options, vtSession* session, const vtR
 vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtBench* bench,
                          vtBenchCase* measured, vtError* error)
 {
+    vtBorrowedScene borrowed;
     vtReference* reference = NULL;
     vtResult result = vt_ok;
     for (int i = 0; i < bench->rowCount && result == vt_ok; ++i) {
@@ -197,7 +199,7 @@ vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtB
     }
     const double start = vtNow();
     if (result == vt_ok) {
-        result = vtCreateReference(&session->input.mesh, &reference, error);
+        result = vtCreateReference(vtBorrowMesh(&session->input.mesh, &borrowed), &reference, error);
     }
     measured->tracerBuild = vtNow() - start;
     if (result == vt_ok) {

@@ -89,6 +89,7 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
 {
     const vtFrame* frame = &ladder->frames[0];
     float* directions = malloc(3 * sizeof(float) * (size_t)frame->width * (size_t)frame->height);
+    vtBorrowedScene borrowed;
     vtReference* reference = NULL;
     vtResult result = directions != NULL ? vtTrace(options, &session->input, frame, &ladder->truth, error)
                                          : vtFail(error, vt_errorMemory, "ladder: out of memory");
@@ -99,7 +100,7 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
         result = climb(session, ladder, i, directions, error);
     }
     if (result == vt_ok) {
-        result = vtCreateReference(&session->input.mesh, &reference, error);
+        result = vtCreateReference(vtBorrowMesh(&session->input.mesh, &borrowed), &reference, error);
     }
     if (result == vt_ok) {
         vtTiming times[rungCount], traced;

@@ -188,8 +188,10 @@ static vtResult addComparisons(Page* page, vtError* error)
 /// One row of table 4.1: layered and traced, near (as framed) and at twice the distance.
 static vtResult addTimes(Page* page, const Model* model, vtError* error)
 {
+    vtBorrowedScene borrowed;
     vtReference* reference;
-    vtResult result = vtCreateReference(&page->session.input.mesh, &reference, error);
+    vtResult result =
+        vtCreateReference(vtBorrowMesh(&page->session.input.mesh, &borrowed), &reference, error);
     vtTiming drawn[2], traced[2];
     for (int i = 0; i < 2 && result == vt_ok; ++i) {
         vtFrame frame = frameAt(page, i == 0 ? 2.0f : 1.0f);

@@ -13,6 +13,19 @@ bool vtIsReference(const vtOptions* options)
     return strcmp(options->technique, "reference") == 0;
 }
 
+const vtScene* vtBorrowMesh(const vtMesh* mesh, vtBorrowedScene* borrowed)
+{
+    *borrowed = (vtBorrowedScene){
+        .mesh = *mesh, .material = vtDefaultMaterial(), .object = {.toWorld = vtIdentityTransform()}};
+    borrowed->scene = (vtScene){.meshes = &borrowed->mesh,
+                                .materials = &borrowed->material,
+                                .objects = &borrowed->object,
+                                .meshCount = 1,
+                                .materialCount = 1,
+                                .objectCount = 1};
+    return &borrowed->scene;
+}
+
 static void showProgress(float share, void* userData)
 {
     vtShowProgress("tracing", share, *(const double*)userData);
@@ -22,7 +35,8 @@ vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* 
                  vtReferenceImage* image, vtError* error)
 {
     vtReference* reference;
-    vtResult result = vtCreateReference(&input->mesh, &reference, error);
+    vtBorrowedScene borrowed;
+    vtResult result = vtCreateReference(vtBorrowMesh(&input->mesh, &borrowed), &reference, error);
     if (result != vt_ok) {
         return result;
     }
@@ -48,11 +62,11 @@ static void analysisColor(const vtReferenceImage* image, size_t pixel, uint8_t* 
 {
     static const uint8_t background[3] = {255, 255, 255}, lost[3] = {89, 89, 89},
                          reflected[3] = {26, 166, 51}, two[3] = {217, 31, 26}, more[3] = {26, 64, 217};
-    const uint8_t* color = image->states[pixel] == VT_PATH_BACKGROUND ? background
-                           : image->states[pixel] == VT_PATH_LOST     ? lost
-                           : image->reflections[pixel]                ? reflected
-                           : image->events[pixel] <= 2                ? two
-                                                                      : more;
+    const uint8_t* color = image->states[pixel] == VT_PATH_LOST ? lost
+                           : image->events[pixel] == 0          ? background
+                           : image->reflections[pixel]          ? reflected
+                           : image->events[pixel] <= 2          ? two
+                                                                : more;
     memcpy(rgb, color, 3);
 }
 

@@ -7,6 +7,17 @@
 /// True where --technique names the CPU reference rather than a row of the table.
 bool vtIsReference(const vtOptions* options);
 
+/// A scene of one mesh that stays the caller's: clear glass around which there is air. Not to be destroyed.
+typedef struct vtBorrowedScene {
+    vtScene scene;
+    vtMesh mesh;
+    vtMaterial material;
+    vtObject object;
+} vtBorrowedScene;
+
+/// The scene, filled in.
+const vtScene* vtBorrowMesh(const vtMesh* mesh, vtBorrowedScene* borrowed);
+
 /// Traces the frame, with a progress line on standard error where that is a terminal.
 vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame,
                  vtReferenceImage* image, vtError* error);
