@@ -34,6 +34,14 @@ typedef struct Surface {
     bool behind; ///< met from within
 } Surface;
 
+/// What a path meets at one place.
+typedef struct Place {
+    Surface surfaces[VT_MAX_TOUCHING]; ///< by rank: the normals of the first count
+    int count;
+    const vtSurfaceHit* opaque; ///< VT_NO_TRIANGLE: there is none
+    vtMedia before, after;      ///< what the path is within, if it goes on straight or refracted
+} Place;
+
 // ----------------------------------------------------------------------------------------------- geometry
 
 static vtVec3 interpolate(const float* values, const uint32_t* corners, float u, float v)
@@ -92,30 +100,33 @@ static bool isStart(const vtReference* reference, const vtReferencePath* path, c
     return false;
 }
 
-/// The surfaces of a meeting that the path meets, 1 to VT_MAX_TOUCHING; 0: the nearest is where it starts.
-static int findSurfaces(const vtReference* reference, const vtReferencePath* path, const vtMeeting* meeting,
-                        Surface* surfaces)
+/// The surfaces of glass that the path meets; false where the nearest is the one it starts from.
+static bool findSurfaces(const vtReference* reference, const vtReferencePath* path, const vtMeeting* meeting,
+                         Place* place)
 {
-    int count = 0;
+    place->count = 0;
+    place->opaque = &meeting->opaque;
     for (int i = 0; i < meeting->glassCount; ++i) {
         const vtSurfaceHit* hit = &meeting->glass[i];
         const vtVec3 G = triangleNormal(&reference->objects[hit->object], hit);
-        surfaces[count] = (Surface){hit, G, vtDot(G, path->direction) > 0.0f};
-        if (!isStart(reference, path, &surfaces[count])) {
-            ++count;
+        Surface* surface = &place->surfaces[place->count];
+        *surface = (Surface){hit, G, vtDot(G, path->direction) > 0.0f};
+        if (!isStart(reference, path, surface)) {
+            ++place->count;
         } else if (hit->distance == meeting->nearest) {
-            return 0;
+            return false;
         }
     }
-    return count;
+    return true;
 }
 
 /// Toggles the objects of those surfaces that are met from behind, or of the others.
-static bool toggle(vtMedia* media, const Surface* surfaces, int count, bool behind)
+static bool toggle(vtMedia* media, const Place* place, bool behind)
 {
     bool fits = true;
-    for (int i = 0; i < count; ++i) {
-        fits = fits && (surfaces[i].behind != behind || vtMedia_Toggle(media, surfaces[i].hit->object + 1));
+    for (int i = 0; i < place->count; ++i) {
+        const Surface* surface = &place->surfaces[i];
+        fits = fits && (surface->behind != behind || vtMedia_Toggle(media, surface->hit->object + 1));
     }
     return fits;
 }
@@ -123,19 +134,18 @@ static bool toggle(vtMedia* media, const Surface* surfaces, int count, bool behi
 /// What the path is within before the surfaces and after them. A surface itself says where the path is: an
 /// eye within open glass sees back faces first, and where parts of a mesh run into each other (the cow's
 /// horns) this is what Cycles does. False where too much lies one in the other.
-static bool findMedia(const vtReferencePath* path, const Surface* surfaces, int count, vtMedia* before,
-                      vtMedia* after)
+static bool findMedia(const vtReferencePath* path, Place* place)
 {
-    *before = path->within;
+    place->before = path->within;
     bool fits = true;
-    for (int i = 0; i < count; ++i) {
-        const uint32_t id = surfaces[i].hit->object + 1;
-        if (vtMedia_Holds(before, id) != surfaces[i].behind) {
-            fits = fits && vtMedia_Toggle(before, id);
+    for (int i = 0; i < place->count; ++i) {
+        const uint32_t id = place->surfaces[i].hit->object + 1;
+        if (vtMedia_Holds(&place->before, id) != place->surfaces[i].behind) {
+            fits = fits && vtMedia_Toggle(&place->before, id);
         }
     }
-    *after = *before;
-    return fits && toggle(after, surfaces, count, true) && toggle(after, surfaces, count, false);
+    place->after = place->before;
+    return fits && toggle(&place->after, place, true) && toggle(&place->after, place, false);
 }
 
 static float indexOf(const vtReference* reference, const vtPathRules* rules, uint32_t id)
@@ -174,16 +184,16 @@ static bool endOn(vtReferencePath* path, const vtSurfaceHit* opaque)
 }
 
 /// Lets the path begin anew on the surfaces met; the first says where that is.
-static void startAt(const vtReference* reference, vtReferencePath* path, const Surface* surfaces, int count,
-                    const vtSurfaceHit* opaque)
+static void startAt(const vtReference* reference, vtReferencePath* path, const Place* place)
 {
-    path->origin = surfacePoint(&reference->objects[surfaces[0].hit->object], surfaces[0].hit);
+    const vtSurfaceHit* first = place->surfaces[0].hit;
+    path->origin = surfacePoint(&reference->objects[first->object], first);
     path->near = VT_START_DISTANCE * reference->extent;
     path->passed = 0.0f;
     path->nudged = false;
     path->startCount = 0;
-    for (int i = 0; i <= count; ++i) {
-        const vtSurfaceHit* hit = i < count ? surfaces[i].hit : opaque;
+    for (int i = 0; i <= place->count; ++i) {
+        const vtSurfaceHit* hit = i < place->count ? place->surfaces[i].hit : place->opaque;
         if (hit->triangle != VT_NO_TRIANGLE) {
             path->startObjects[path->startCount] = hit->object;
             path->startTriangles[path->startCount++] = hit->triangle;
@@ -203,17 +213,17 @@ static bool countEvent(const vtPathRules* rules, vtReferencePath* path)
 /// One event: the path goes on refracted or, where it must, reflected. False where it ends. *branch: a path
 /// that is reflected where this one refracts; its weight is 0 where there is none.
 static bool bend(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
-                 const Surface* surfaces, int count, const vtMedia* after, float eta,
-                 const vtSurfaceHit* opaque, vtReferencePath* branch)
+                 const Place* place, float eta, vtReferencePath* branch)
 {
-    const vtPlacedObject* object = &reference->objects[surfaces[0].hit->object];
-    const float turn = surfaces[0].behind ? -1.0f : 1.0f;
-    const vtVec3 G = vtScale(surfaces[0].G, turn);
-    vtVec3 N = vtScale(surfaceNormal(object, surfaces[0].hit), turn);
+    const Surface* surface = &place->surfaces[0];
+    const vtPlacedObject* object = &reference->objects[surface->hit->object];
+    const float turn = surface->behind ? -1.0f : 1.0f;
+    const vtVec3 G = vtScale(surface->G, turn);
+    vtVec3 N = vtScale(surfaceNormal(object, surface->hit), turn);
     const vtVec3 I = path->direction;
     bool reflected;
     const vtVec3 T = vtMeetInterface(I, N, G, eta, &reflected);
-    startAt(reference, path, surfaces, count, opaque);
+    startAt(reference, path, place);
     path->reflected |= reflected;
     if (!reflected && rules->fresnel) {
         N = vtDot(N, I) >= 0.0f ? G : N;
@@ -227,27 +237,26 @@ static bool bend(const vtReference* reference, const vtPathRules* rules, vtRefer
     }
     path->direction = T;
     if (!reflected) {
-        path->within = *after;
+        path->within = place->after;
         path->weight = multiply(path->weight, object->material->tint);
     }
     if (!countEvent(rules, path)) {
         return false;
     }
     // What is opaque and touches the glass comes after it.
-    return reflected || opaque->triangle == VT_NO_TRIANGLE || endOn(path, opaque);
+    return reflected || place->opaque->triangle == VT_NO_TRIANGLE || endOn(path, place->opaque);
 }
 
 /// Lets the path go straight on where nothing changes on the way; false where it ends.
-static bool pass(vtReferencePath* path, const Surface* surfaces, int count, const vtMedia* after,
-                 const vtSurfaceHit* opaque)
+static bool pass(vtReferencePath* path, const Place* place)
 {
-    for (int i = 0; i < count; ++i) {
-        path->passed = fmaxf(path->passed, surfaces[i].hit->distance);
+    for (int i = 0; i < place->count; ++i) {
+        path->passed = fmaxf(path->passed, place->surfaces[i].hit->distance);
     }
-    path->within = *after;
+    path->within = place->after;
     path->nudged = false;
-    if (opaque->triangle != VT_NO_TRIANGLE) {
-        return endOn(path, opaque);
+    if (place->opaque->triangle != VT_NO_TRIANGLE) {
+        return endOn(path, place->opaque);
     }
     return ++path->passes < maxPasses || end(path, VT_PATH_LOST);
 }
@@ -270,26 +279,23 @@ static bool advance(const vtReference* reference, const vtPathRules* rules, vtRe
         const bool inside = vtMedia_Top(&path->within) != 0;
         return end(path, path->events == 0 ? VT_PATH_BACKGROUND : inside ? VT_PATH_LOST : VT_PATH_EXITED);
     }
-    Surface surfaces[VT_MAX_TOUCHING];
-    const int count = findSurfaces(reference, path, meeting, surfaces);
-    if (count == 0) {
+    Place place;
+    if (!findSurfaces(reference, path, meeting, &place)) {
         path->near = vtStepBeyond(reference, meeting->nearest);
         return true;
     }
-    vtMedia before, after;
-    if (!findMedia(path, surfaces, count, &before, &after)) {
+    if (!findMedia(path, &place)) {
         return end(path, VT_PATH_LOST);
     }
-    const uint32_t idBefore = vtMedia_Top(&before), idAfter = vtMedia_Top(&after);
-    const float n = indexOf(reference, rules, idBefore), nAfter = indexOf(reference, rules, idAfter);
-    const bool changes = idBefore != idAfter && n != nAfter;
+    const uint32_t before = vtMedia_Top(&place.before), after = vtMedia_Top(&place.after);
+    const float index = indexOf(reference, rules, before), indexAfter = indexOf(reference, rules, after);
+    const bool changes = before != after && index != indexAfter;
     if (changes && path->events == rules->maxEvents) {
         return end(path, VT_PATH_LOST); // it had left, and comes back
     }
     absorb(reference, path, meeting->nearest);
-    path->within = before;
-    return changes ? bend(reference, rules, path, surfaces, count, &after, n / nAfter, opaque, branch)
-                   : pass(path, surfaces, count, &after, opaque);
+    path->within = place.before;
+    return changes ? bend(reference, rules, path, &place, index / indexAfter, branch) : pass(path, &place);
 }
 
 // --------------------------------------------------------------------------------------------------- paths
