@@ -197,7 +197,7 @@ vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtB
     }
     const double start = vtNow();
     if (result == vt_ok) {
-        result = vtCreateReference(&session->input.scene.meshes[0], &reference, error);
+        result = vtCreateReference(&session->input.scene, &reference, error);
     }
     measured->tracerBuild = vtNow() - start;
     if (result == vt_ok) {

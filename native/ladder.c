@@ -99,7 +99,7 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
         result = climb(session, ladder, i, directions, error);
     }
     if (result == vt_ok) {
-        result = vtCreateReference(&session->input.scene.meshes[0], &reference, error);
+        result = vtCreateReference(&session->input.scene, &reference, error);
     }
     if (result == vt_ok) {
         vtTiming times[rungCount], traced;

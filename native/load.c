@@ -224,7 +224,6 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
         vtDestroyInput(input);
         return result;
     }
-    input->mesh = input->scene.meshes[0]; // TEMPORARY, see load.h
     return vtSucceed(error);
 }
 

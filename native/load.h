@@ -6,8 +6,7 @@
 typedef struct vtInput {
     vtScene scene;
     vtEnvironment environment;
-    float ior;   ///< of the command line; 0: each object's own
-    vtMesh mesh; ///< TEMPORARY: scene.meshes[0], borrowed, until trace.c takes the scene
+    float ior; ///< of the command line; 0: each object's own
 } vtInput;
 
 /// Loads models and environment, prints notes (computed normals) and warnings (an open mesh) to stderr.

@@ -3,11 +3,12 @@
 
 #include "vitrine.h"
 
-/// A mesh prepared for tracing. It keeps copies of what it needs, so the mesh may go.
+/// A scene prepared for tracing.
 typedef struct vtReference vtReference;
 
-/// Builds the search structure (about 0.1 s for 70 000 triangles). Fails with vt_errorMemory.
-vtResult vtCreateReference(const vtMesh* mesh, vtReference** reference, vtError* error);
+/// Builds the search structures, one a mesh (about 0.1 s for 70 000 triangles). The scene must outlive it,
+/// unchanged. Fails as vtValidateScene does, and with vt_errorMemory.
+vtResult vtCreateReference(const vtScene* scene, vtReference** reference, vtError* error);
 /// Safe on NULL.
 void vtDestroyReference(vtReference* reference);
 
@@ -18,12 +19,13 @@ typedef struct vtReferenceDef {
     const vtFrame* frame; ///< view, ior, maxEvents, exposure, width and height are used
     /// NULL: directions, events, states and reflections only.
     const vtEnvironment* environment;
-    /// Paths a pixel for the radiance, 1 to VT_MAX_TRACED_SAMPLES; 0 and 1: one through the pixel's centre,
-    /// more: spread over the pixel as vtFrame.samples are. Each then counts no more than a display can show
-    /// (1), as there; not with Fresnel reflection.
+    /// A pixel for the radiance, 1 to VT_MAX_TRACED_SAMPLES; 0 and 1: one through the pixel's centre, more:
+    /// spread over the pixel as vtFrame.samples are. Each then counts no more than a display can show (1), as
+    /// there; of a sample with Fresnel reflection that is all its light together.
     int samples;
-    /// Unpolarised Fresnel reflection at every event, the first surface's included, chosen by chance for each
-    /// path. Concerns the radiance only.
+    /// Unpolarised Fresnel reflection at every event, the first surface's included: both what reflects and
+    /// what refracts is followed, without chance, down to paths of 0.002 of the light. Concerns the radiance
+    /// only.
     bool fresnel;
     int threads; ///< 1 to VT_MAX_THREADS; 0: as many as there are processors. The picture is the same.
     /// Called now and then from the calling thread with the share done, 0 to 1; NULL: not at all.
@@ -35,9 +37,9 @@ typedef struct vtReferenceDef {
 /// reflection: the path that the real-time techniques imitate.
 typedef struct vtReferenceImage {
     int width, height;
-    float* directions;    ///< 3 a pixel: unit exit direction, (0,0,0) background, (2,2,2) lost
-    uint8_t* events;      ///< surfaces met; 0 for background
-    uint8_t* states;      ///< VT_PATH_BACKGROUND, VT_PATH_EXITED or VT_PATH_LOST
+    float* directions; ///< 3 a pixel: unit direction at the path's end, (2,2,2) lost, (0,0,0) without events
+    uint8_t* events;   ///< surfaces where paths refract or reflect; 0: nothing but background or opaque
+    uint8_t* states;   ///< VT_PATH_BACKGROUND, VT_PATH_EXITED, VT_PATH_LOST or VT_PATH_OPAQUE
     uint8_t* reflections; ///< 1 where total internal reflection took part
     float* radiance;      ///< 3 a pixel, linear, after exposure, mean over the samples; a lost path shows
                           ///< the environment in its last direction. NULL without an environment.
@@ -52,8 +54,3 @@ void vtDestroyReferenceImage(vtReferenceImage* image);
 
 /// The radiance as 4 * width * height bytes, sRGB clamped to 0..1, alpha 255. The image must have radiance.
 void vtReference_ToSrgb(const vtReferenceImage* image, uint8_t* rgba);
-
-/// For every vertex of the mesh that the reference was made from, how far the surface's far side is along
-/// the inward normal (d_N of Wyman 2005), vertexCount floats; 0 where nothing is met. Uses one thread.
-vtResult vtReference_InnerDistances(const vtReference* reference, const vtMesh* mesh, float* distances,
-                                    vtError* error);

@@ -2,9 +2,9 @@
 #include "base/error.h"
 #include "reference.h"
 
-vtResult vtCreateReference(const vtMesh* mesh, vtReference** reference, vtError* error)
+vtResult vtCreateReference(const vtScene* scene, vtReference** reference, vtError* error)
 {
-    (void)mesh;
+    (void)scene;
     *reference = NULL;
     return vtFail(error, vt_errorArgument,
                   "reference: this vitrine was built without Embree (libembree-dev)");
@@ -31,11 +31,4 @@ void vtDestroyReferenceImage(vtReferenceImage* image)
 void vtReference_ToSrgb(const vtReferenceImage* image, uint8_t* rgba)
 {
     (void)image, (void)rgba;
-}
-
-vtResult vtReference_InnerDistances(const vtReference* reference, const vtMesh* mesh, float* distances,
-                                    vtError* error)
-{
-    (void)distances;
-    return vtCreateReference(mesh, &(vtReference*){(vtReference*)reference}, error);
 }

@@ -1,61 +1,112 @@
-// What the files of the reference share: the scene, and paths through it.
+// What the files of the reference share: the scene, rays through it, and paths.
 #pragma once
 
 #include <embree3/rtcore.h>
 
 #include "base/math.h"
 #include "reference.h"
+#include "scene/media.h"
+#include "scene/objects.h"
 
 struct vtReference {
+    const vtScene* scene;
     RTCDevice device;
-    RTCScene scene;
-    const float* positions; ///< owned by the scene, as are the indices
-    const uint32_t* indices;
-    float* normals;
-    uint32_t vertexCount;
+    RTCScene* meshes;        ///< one for each mesh of the scene, in its own coordinates; NULL: no object's
+    vtPlacedObject* objects; ///< glass, then what is opaque
+    uint32_t objectCount, glassCount;
     float extent; ///< of the coordinates: what small distances are measured by
 };
 
-/// A point of the surface on a ray.
+/// Of the extent. Of the objects that a path starts from, surfaces nearer than the first are never looked at,
+/// which saves asking again after most self-hits; those of the wrong side nearer than the second are
+/// self-hits. Rounding is about 1e-7; between 1e-7 and 1e-5 the first makes no difference to any pixel of the
+/// tests' models. Surfaces of several objects that lie no farther apart than the third touch.
+#define VT_START_DISTANCE 1e-6f
+#define VT_SELF_DISTANCE 1e-4f
+#define VT_TOUCH_DISTANCE 1e-5f
+
+/// Most objects whose surfaces a path can meet at one place. Where there are more, the others' follow.
+#define VT_MAX_TOUCHING 4
+
+/// Rays that Embree takes at a time.
+#define VT_PACKET 8
+
+/// A point of an object's surface on a ray.
 typedef struct vtSurfaceHit {
     float distance;
+    uint32_t object;   ///< its rank
     uint32_t triangle; ///< VT_NO_TRIANGLE: the ray met nothing
     float u, v;        ///< weights of the triangle's second and third corner
 } vtSurfaceHit;
 
+/// What is next on a ray.
+typedef struct vtMeeting {
+    float nearest;                       ///< distance of the first surface of glass; INFINITY: none
+    vtSurfaceHit glass[VT_MAX_TOUCHING]; ///< that surface and those that it touches, by rank
+    int glassCount;
+    vtSurfaceHit opaque; ///< the first opaque one, unless it lies behind glass that it does not touch
+    bool missed;         ///< an object that the ray is within has no surface ahead
+} vtMeeting;
+
 /// A path between two events.
 typedef struct vtReferencePath {
     vtVec3 origin, direction;
-    float near;        ///< distance from which surfaces count
-    uint32_t triangle; ///< where it starts, or VT_NO_TRIANGLE at the eye
-    uint32_t random;   ///< state of its random numbers
+    vtVec3 weight;    ///< share of the light at its end that arrives at the eye
+    float near;       ///< distance from which the surfaces of the objects count that it starts from
+    float passed;     ///< distance of the last surface passed by since the last event; 0: none
+    vtMedia within;   ///< scene/media.h
+    vtSurfaceHit end; ///< state VT_PATH_OPAQUE: where
+    uint32_t source;  ///< number of the path at the eye that it is or has branched off from
+    uint32_t startObjects[VT_MAX_TOUCHING + 1], startTriangles[VT_MAX_TOUCHING + 1]; ///< where it starts
+    uint16_t passes;                                                                 ///< surfaces passed by
+    uint8_t startCount;                                                              ///< 0 at the eye
     uint8_t events;
     uint8_t state; ///< VT_PATH_..., once it has ended
-    bool inside, reflected;
+    bool ended, reflected;
     bool nudged; ///< see vtNudge
 } vtReferencePath;
 
+/// Paths from the eye, and those that branch off from them.
+typedef struct vtPathList {
+    vtReferencePath* paths;
+    uint32_t* active; ///< numbers of those under way; room for all
+    uint32_t count, capacity;
+} vtPathList;
+
 typedef struct vtPathRules {
-    float ior;
+    float ior; ///< of all glass; 0: each object's own
     int maxEvents;
     bool fresnel;
 } vtPathRules;
 
-/// Most paths that vtFollowPaths takes at a time.
-#define VT_PATH_BATCH 256
+/// What is next for `count` paths, 1 to VT_PACKET, given by their numbers. `coherent`: neighbours go much the
+/// same way.
+void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths, const uint32_t* numbers,
+                      int count, bool coherent, vtMeeting* meetings);
 
-/// Follows paths from the eye (only origin, direction and random need be set) until each has ended.
-void vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtReferencePath* paths, int count);
-
-/// A path that starts at the eye.
-static inline vtReferencePath vtMakePath(vtVec3 origin, vtVec3 direction, uint32_t random)
+/// Empties the list, with room for paths kept. A zeroed list is empty.
+static inline void vtPathList_Clear(vtPathList* list)
 {
-    return (vtReferencePath){
-        .origin = origin, .direction = direction, .triangle = VT_NO_TRIANGLE, .random = random};
+    list->count = 0;
 }
 
-/// The triangle's own outward normal, not of unit length.
-vtVec3 vtReference_TriangleArea(const vtReference* reference, uint32_t triangle);
+/// False where memory is short.
+bool vtPathList_Add(vtPathList* list, const vtReferencePath* path);
+void vtDestroyPathList(vtPathList* list);
+
+/// Follows paths from the eye, all that the list holds, until each has ended; those that branch off are added
+/// to it. False where memory is short.
+bool vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtPathList* list);
+
+/// A path that starts at the eye, which lies within these objects.
+static inline vtReferencePath vtMakePath(vtVec3 origin, vtVec3 direction, vtMedia within, uint32_t source)
+{
+    return (vtReferencePath){.origin = origin,
+                             .direction = direction,
+                             .weight = {1.0f, 1.0f, 1.0f},
+                             .within = within,
+                             .source = source};
+}
 
 /// Where to look on after a surface at `distance` that does not count.
 static inline float vtStepBeyond(const vtReference* reference, float distance)
@@ -65,24 +116,9 @@ static inline float vtStepBeyond(const vtReference* reference, float distance)
 
 /// A direction 1e-5 (0.0006 degrees) beside this one. Embree can miss a surface where a ray meets a vertex
 /// exactly, its robust mode included (its issues 174 and 181), and vertices do face vertices in regular
-/// shapes: a ray inside closed glass that meets nothing asks once more this way.
+/// shapes: a ray that misses the far side of the glass it is in asks once more this way.
 static inline vtVec3 vtNudge(vtVec3 direction)
 {
     const vtVec3 axis = fabsf(direction.x) < 0.5f ? (vtVec3){1.0f, 0.0f, 0.0f} : (vtVec3){0.0f, 1.0f, 0.0f};
     return vtNormalize(vtMulAdd(direction, 1e-5f, vtCross(direction, axis)));
-}
-
-/// PCG-RXS-M-XS (O'Neill 2014), used both as a hash and as the step of a generator.
-static inline uint32_t vtHash(uint32_t x)
-{
-    x = x * 747796405u + 2891336453u;
-    x = ((x >> ((x >> 28) + 4u)) ^ x) * 277803737u;
-    return (x >> 22) ^ x;
-}
-
-/// The next random number, 0 <= number < 1.
-static inline float vtNextRandom(uint32_t* state)
-{
-    *state = vtHash(*state);
-    return (float)(*state >> 8) * 0x1p-24f;
 }

@@ -11,13 +11,11 @@
 #include "reference.h"
 #include "reference_scene.h"
 #include "scene/camera.h"
+#include "scene/shading.h"
 
-enum {
-    tileSide = 16, // tileSide * tileSide is VT_PATH_BATCH
-};
-_Static_assert(tileSide* tileSide == VT_PATH_BATCH, "a tile is one batch of paths");
+enum { tileSide = 16 };
 
-/// One picture under work, shared by the threads; only nextTile changes.
+/// One picture under work, shared by the threads; only nextTile and failed change.
 typedef struct Job {
     const vtReference* reference;
     const vtReferenceDef* def;
@@ -26,8 +24,12 @@ typedef struct Job {
     float tangentX, tangentY; ///< of half the field of view
     int samples;
     float exposure; ///< factor
+    vtPathRules rules;
+    vtMedia eyeMedia;    ///< what the eye is within
+    vtLighting lighting; ///< of opaque surfaces
     int tileColumns, tileCount;
     atomic_int nextTile;
+    atomic_bool failed; ///< memory is short
 } Job;
 
 /// Pixels first..last-1, cut at the picture's edge.
@@ -62,7 +64,7 @@ static size_t pixelIndex(const Job* job, int column, int row)
 static void storePath(vtReferenceImage* image, size_t pixel, const vtReferencePath* path)
 {
     vtVec3 d = path->direction;
-    if (path->state == VT_PATH_BACKGROUND) {
+    if (path->events == 0 && path->state != VT_PATH_LOST) {
         d = (vtVec3){0.0f, 0.0f, 0.0f};
     } else if (path->state == VT_PATH_LOST) {
         d = (vtVec3){2.0f, 2.0f, 2.0f};
@@ -75,77 +77,104 @@ static void storePath(vtReferenceImage* image, size_t pixel, const vtReferencePa
     image->reflections[pixel] = path->reflected;
 }
 
-static void addRadiance(const Job* job, size_t pixel, vtVec3 direction)
+/// The pixel centres' own paths without Fresnel reflection.
+static bool traceCentres(const Job* job, const Tile* tile, vtPathList* list)
 {
-    vtVec3 light = vtScale(vtEnvironment_Sample(job->def->environment, direction), job->exposure);
-    // As add_sample.frag does, and for its reason. But what a path meets by chance is no part of the pixel:
-    // of a lamp that is reflected by one path in twenty, all light must count.
-    if (job->samples > 1 && !job->def->fresnel) {
-        light = (vtVec3){fminf(light.x, 1.0f), fminf(light.y, 1.0f), fminf(light.z, 1.0f)};
-    }
-    const float share = 1.0f / (float)job->samples;
-    float* sum = job->image->radiance + 3 * pixel;
-    sum[0] += light.x * share;
-    sum[1] += light.y * share;
-    sum[2] += light.z * share;
-}
-
-/// The pixel centres' own paths; they are all the samples there are where one is asked for.
-static void traceCentres(const Job* job, const Tile* tile)
-{
-    const vtPathRules rules = {job->def->frame->ior, vtResolveFrame(job->def->frame).maxEvents, false};
-    const bool colour = job->image->radiance != NULL && job->samples == 1 && !job->def->fresnel;
-    vtReferencePath paths[VT_PATH_BATCH];
-    int count = 0;
+    vtPathRules rules = job->rules;
+    rules.fresnel = false;
+    vtPathList_Clear(list);
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
             const vtVec3 direction = eyeDirection(job, (float)column + 0.5f, (float)row + 0.5f);
-            paths[count++] = vtMakePath(job->camera.eye, direction, 0);
-        }
-    }
-    vtFollowPaths(job->reference, &rules, paths, count);
-    const vtReferencePath* path = paths;
-    for (int row = tile->firstRow; row < tile->lastRow; ++row) {
-        for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++path) {
-            const size_t pixel = pixelIndex(job, column, row);
-            storePath(job->image, pixel, path);
-            if (colour) {
-                addRadiance(job, pixel, path->direction);
+            const vtReferencePath path = vtMakePath(job->camera.eye, direction, job->eyeMedia, list->count);
+            if (!vtPathList_Add(list, &path)) {
+                return false;
             }
         }
     }
+    if (!vtFollowPaths(job->reference, &rules, list)) {
+        return false;
+    }
+    const vtReferencePath* path = list->paths;
+    for (int row = tile->firstRow; row < tile->lastRow; ++row) {
+        for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++path) {
+            storePath(job->image, pixelIndex(job, column, row), path);
+        }
+    }
+    return true;
 }
 
 // ----------------------------------------------------------------------------------------------- samples
 
-/// Sample number `index` of a pixel, where the renderer has it.
-static vtReferencePath makeSample(const Job* job, int column, int row, int index)
+/// Sample number `index` of each pixel, where the renderer has it.
+static bool followSamples(const Job* job, const Tile* tile, int index, vtPathList* list)
 {
-    const uint32_t random = vtHash((uint32_t)pixelIndex(job, column, row) ^ vtHash((uint32_t)index));
     float x, y;
     vtPixelSample(index, &x, &y);
-    const vtVec3 direction = eyeDirection(job, (float)column + 0.5f + x, (float)row + 0.5f - y);
-    return vtMakePath(job->camera.eye, direction, random);
-}
-
-static void traceSamples(const Job* job, const Tile* tile, int index)
-{
-    const vtPathRules rules = {job->def->frame->ior, vtResolveFrame(job->def->frame).maxEvents,
-                               job->def->fresnel};
-    vtReferencePath paths[VT_PATH_BATCH];
-    int count = 0;
+    vtPathList_Clear(list);
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
-            paths[count++] = makeSample(job, column, row, index);
+            const vtVec3 direction = eyeDirection(job, (float)column + 0.5f + x, (float)row + 0.5f - y);
+            const vtReferencePath path = vtMakePath(job->camera.eye, direction, job->eyeMedia, list->count);
+            if (!vtPathList_Add(list, &path)) {
+                return false;
+            }
         }
     }
-    vtFollowPaths(job->reference, &rules, paths, count);
-    const vtReferencePath* path = paths;
+    return vtFollowPaths(job->reference, &job->rules, list);
+}
+
+/// What a path brings to the eye.
+static vtVec3 lightOf(const Job* job, const vtReferencePath* path)
+{
+    const vtSurfaceHit* end = &path->end;
+    const vtVec3 light = path->state == VT_PATH_OPAQUE
+                             ? vtShadeSurface(job->reference->scene, &job->reference->objects[end->object],
+                                              &job->lighting, end->triangle, end->u, end->v, path->direction)
+                             : vtEnvironment_Sample(job->def->environment, path->direction);
+    return vtScale((vtVec3){light.x * path->weight.x, light.y * path->weight.y, light.z * path->weight.z},
+                   job->exposure);
+}
+
+/// Adds a sample of each of the tile's pixels: the light of all paths that branch off from one at the eye.
+static void addSamples(const Job* job, const Tile* tile, const vtPathList* list)
+{
+    vtVec3 sums[tileSide * tileSide] = {{0}};
+    for (uint32_t i = 0; i < list->count; ++i) {
+        vtVec3* sum = &sums[list->paths[i].source];
+        *sum = vtAdd(*sum, lightOf(job, &list->paths[i]));
+    }
+    const float share = 1.0f / (float)job->samples;
+    const vtVec3* sum = sums;
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
-        for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++path) {
-            addRadiance(job, pixelIndex(job, column, row), path->direction);
+        for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++sum) {
+            // As add_sample.frag does, and for its reason.
+            const float most = job->samples > 1 ? 1.0f : INFINITY;
+            float* pixel = job->image->radiance + 3 * pixelIndex(job, column, row);
+            pixel[0] += fminf(sum->x, most) * share;
+            pixel[1] += fminf(sum->y, most) * share;
+            pixel[2] += fminf(sum->z, most) * share;
         }
     }
+}
+
+static bool traceTile(const Job* job, const Tile* tile, vtPathList* list)
+{
+    if (!traceCentres(job, tile, list)) {
+        return false;
+    }
+    if (job->image->radiance == NULL) {
+        return true;
+    }
+    // Where one sample is asked for the centres' paths are it, unless there are more than these.
+    const bool again = job->samples > 1 || job->rules.fresnel;
+    for (int sample = 0; sample < job->samples; ++sample) {
+        if (again && !followSamples(job, tile, sample, list)) {
+            return false;
+        }
+        addSamples(job, tile, list);
+    }
+    return true;
 }
 
 // ----------------------------------------------------------------------------------------------- threads
@@ -153,18 +182,19 @@ static void traceSamples(const Job* job, const Tile* tile, int index)
 /// Takes tiles until none are left. Only the calling thread reports.
 static void work(Job* job, bool reports)
 {
-    const bool sampled = job->image->radiance != NULL && (job->samples > 1 || job->def->fresnel);
+    vtPathList list = {0};
     for (int index = atomic_fetch_add(&job->nextTile, 1); index < job->tileCount;
          index = atomic_fetch_add(&job->nextTile, 1)) {
         const Tile tile = makeTile(job, index);
-        traceCentres(job, &tile);
-        for (int sample = 0; sampled && sample < job->samples; ++sample) {
-            traceSamples(job, &tile, sample);
+        if (atomic_load(&job->failed) || !traceTile(job, &tile, &list)) {
+            atomic_store(&job->failed, true);
+            break;
         }
         if (reports && job->def->progress != NULL) {
             job->def->progress((float)index / (float)job->tileCount, job->def->userData);
         }
     }
+    vtDestroyPathList(&list);
 }
 
 static void* runThread(void* job)
@@ -228,16 +258,33 @@ static vtResult createImage(const vtReferenceDef* def, vtReferenceImage* image, 
     return vtSucceed(error);
 }
 
+/// Objects of glass that contain the eye. Where there are too many, those of lowest precedence are left out.
+static vtMedia findEyeMedia(const vtReference* reference, vtVec3 eye)
+{
+    vtMedia media = {{0}};
+    for (uint32_t i = 0; i < reference->glassCount; ++i) {
+        if (vtPlacedObject_Contains(&reference->objects[i], eye)) {
+            vtMedia_Toggle(&media, i + 1);
+        }
+    }
+    return media;
+}
+
 vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* def, vtReferenceImage* image,
                            vtError* error)
 {
     assert(reference != NULL && def != NULL && def->frame != NULL && image != NULL);
     *image = (vtReferenceImage){0};
+    vtLighting lighting = {0};
     vtResult result = checkDef(def, error);
+    if (result == vt_ok && def->environment != NULL) {
+        result = vtCreateLighting(def->environment, &lighting, error);
+    }
     if (result == vt_ok) {
         result = createImage(def, image, error);
     }
     if (result != vt_ok) {
+        vtDestroyLighting(&lighting);
         return result;
     }
     const vtFrame* frame = def->frame;
@@ -253,10 +300,19 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
         .tangentY = tangent,
         .samples = def->samples > 1 ? def->samples : 1,
         .exposure = exp2f(frame->exposure),
+        .rules = {frame->ior, vtResolveFrame(frame).maxEvents, def->fresnel},
+        .eyeMedia = findEyeMedia(reference, frame->view.eye),
+        .lighting = lighting,
         .tileColumns = tileColumns,
         .tileCount = tileColumns * tileRows,
     };
     atomic_init(&job.nextTile, 0);
+    atomic_init(&job.failed, false);
     runJob(&job);
+    vtDestroyLighting(&lighting);
+    if (atomic_load(&job.failed)) {
+        vtDestroyReferenceImage(image);
+        return vtFail(error, vt_errorMemory, "reference: out of memory for paths");
+    }
     return vt_ok;
 }

@@ -193,10 +193,7 @@ static vtResult trace(const vtOptions* options, vtFrame* frame, uint8_t** pixels
     vtReferenceImage image = {0};
     result = vtMakeFrame(options, &input, frame, error);
     if (result == vt_ok) {
-        // TEMPORARY: until the renderer has Fresnel reflection, the reference has it where it is asked for.
-        vtOptions asked = *options;
-        asked.fresnel = options->fresnelGiven;
-        result = vtTrace(&asked, &input, frame, &image, error);
+        result = vtTrace(options, &input, frame, &image, error);
     }
     if (result == vt_ok) {
         result = vtTracePixels(&image, frame, pixels, error);

@@ -190,7 +190,7 @@ static vtResult addComparisons(Page* page, vtError* error)
 static vtResult addTimes(Page* page, const Model* model, vtError* error)
 {
     vtReference* reference;
-    vtResult result = vtCreateReference(&page->session.input.scene.meshes[0], &reference, error);
+    vtResult result = vtCreateReference(&page->session.input.scene, &reference, error);
     vtTiming drawn[2], traced[2];
     for (int i = 0; i < 2 && result == vt_ok; ++i) {
         vtFrame frame = frameAt(page, i == 0 ? 2.0f : 1.0f);

@@ -22,7 +22,7 @@ vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* 
                  vtReferenceImage* image, vtError* error)
 {
     vtReference* reference;
-    vtResult result = vtCreateReference(&input->mesh, &reference, error);
+    vtResult result = vtCreateReference(&input->scene, &reference, error);
     if (result != vt_ok) {
         return result;
     }
@@ -31,7 +31,7 @@ vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* 
         .frame = frame,
         .environment = &input->environment,
         .samples = options->samples,
-        .fresnel = options->fresnel,
+        .fresnel = frame->fresnel,
         .progress = isatty(STDERR_FILENO) ? showProgress : NULL,
         .userData = &start,
     };
@@ -48,11 +48,11 @@ static void analysisColor(const vtReferenceImage* image, size_t pixel, uint8_t* 
 {
     static const uint8_t background[3] = {255, 255, 255}, lost[3] = {89, 89, 89},
                          reflected[3] = {26, 166, 51}, two[3] = {217, 31, 26}, more[3] = {26, 64, 217};
-    const uint8_t* color = image->states[pixel] == VT_PATH_BACKGROUND ? background
-                           : image->states[pixel] == VT_PATH_LOST     ? lost
-                           : image->reflections[pixel]                ? reflected
-                           : image->events[pixel] <= 2                ? two
-                                                                      : more;
+    const uint8_t* color = image->states[pixel] == VT_PATH_LOST ? lost
+                           : image->events[pixel] == 0          ? background
+                           : image->reflections[pixel]          ? reflected
+                           : image->events[pixel] <= 2          ? two
+                                                                : more;
     memcpy(rgb, color, 3);
 }
 

@@ -30,21 +30,26 @@ static inline float vtFresnel(float c, float eta)
     return 0.5f * (s * s + p * p);
 }
 
-/// One event of a path: the ray of direction I meets a surface of outward normals N (interpolated) and G
-/// (of the triangle), inside the glass or not. Gives the new direction and keeps *inside true to it.
-/// Where the interpolated normal would send the ray through the wrong side, the triangle's is taken.
-static inline vtVec3 vtMeetSurface(vtVec3 I, vtVec3 N, vtVec3 G, float ior, bool* inside, bool* reflected)
+/// One event of a path: the new direction of a ray of direction I that meets a surface of normals N
+/// (interpolated) and G (of the triangle), both turned against the ray. eta: index of refraction behind the
+/// ray over the one ahead. Where the interpolated normal would send the ray through the wrong side, the
+/// triangle's is taken. *reflected: there is total internal reflection.
+static inline vtVec3 vtMeetInterface(vtVec3 I, vtVec3 N, vtVec3 G, float eta, bool* reflected)
 {
-    float eta = *inside ? ior : 1.0f / ior;
-    if (*inside) {
-        N = vtScale(N, -1.0f);
-        G = vtScale(G, -1.0f);
-    }
     vtVec3 T = vtBend(I, N, eta, reflected);
     float side = vtDot(T, G);
     if (vtDot(N, I) >= 0.0f || (*reflected ? side <= 0.0f : side >= 0.0f)) {
         T = vtBend(I, G, eta, reflected);
     }
+    return T;
+}
+
+/// The same where there is one object, and air around it: N and G are outward normals, and the ray is inside
+/// the glass or not. Keeps *inside true to it.
+static inline vtVec3 vtMeetSurface(vtVec3 I, vtVec3 N, vtVec3 G, float ior, bool* inside, bool* reflected)
+{
+    const float turn = *inside ? -1.0f : 1.0f;
+    vtVec3 T = vtMeetInterface(I, vtScale(N, turn), vtScale(G, turn), *inside ? ior : 1.0f / ior, reflected);
     if (!*reflected) {
         *inside = !*inside;
     }

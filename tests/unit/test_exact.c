@@ -88,7 +88,15 @@ static void hitsAreThoseOfATracer(void** state)
         vtReferenceImage truth;
         vtFrame frame = smallFrame(vt_techniqueExact);
         assert_ok(vtCreateShape(shapes[shape], &mesh, &error), error);
-        if (vtCreateReference(&mesh, &reference, &error) != vt_ok) {
+        vtMaterial material = vtDefaultMaterial();
+        vtObject object = {.toWorld = vtIdentityTransform()};
+        const vtScene scene = {.meshes = &mesh,
+                               .materials = &material,
+                               .objects = &object,
+                               .meshCount = 1,
+                               .materialCount = 1,
+                               .objectCount = 1};
+        if (vtCreateReference(&scene, &reference, &error) != vt_ok) {
             vtDestroyMesh(&mesh);
             print_message("skipped: %s\n", error.message);
             skip();

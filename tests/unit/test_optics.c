@@ -94,6 +94,27 @@ static void trianglesNormalDecidesWhereTheOtherFails(void** state)
     assert_true(R.y < 0.0f);
 }
 
+// From glass into denser glass and back; the normals are against the ray already.
+static void interfacesFollowSnell(void** state)
+{
+    (void)state;
+    const float eta = 1.5f / 2.0f;
+    for (float degrees = 0.0f; degrees < 90.0f; degrees += 5.0f) {
+        bool reflected;
+        const vtVec3 I = incoming(degrees);
+        vtVec3 T = vtMeetInterface(I, up, up, eta, &reflected);
+        assert_false(reflected);
+        assert_near(T.x, I.x * eta, 1e-6);
+        vtVec3 E = vtMeetInterface(T, up, up, 1.0f / eta, &reflected);
+        assert_false(reflected);
+        assert_near(vtLength(vtSub(E, I)), 0.0f, 1e-4); // near the critical angle rounding grows
+    }
+    bool reflected;
+    vtVec3 R = vtMeetInterface(incoming(49.0f), up, up, 1.0f / eta, &reflected); // critical: 48.59 degrees
+    assert_true(reflected);
+    assert_near(R.y, -incoming(49.0f).y, 1e-6);
+}
+
 // Kay & Greenberg's equations, by hand.
 static void transparencyFollowsKayAndGreenberg(void** state)
 {
@@ -130,6 +151,7 @@ int main(void)
         cmocka_unit_test(slabShiftsByTheTextbookOffset),
         cmocka_unit_test(transparencyFollowsKayAndGreenberg),
         cmocka_unit_test(trianglesNormalDecidesWhereTheOtherFails),
+        cmocka_unit_test(interfacesFollowSnell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,6 +66,7 @@ static uint8_t* readData(const Fixture* fixture, const char* folder, const char*
 static vtDirectionError measure(Fixture* fixture, vtTechnique technique, int layers, const float* truth)
 {
     vtFrame frame = vtDefaultFrame();
+    frame.fresnel = false;
     vtDirectionError result;
     vtError error;
     uint8_t* pixels = malloc(4 * side * side);
@@ -108,7 +109,7 @@ static void directionsAgreeWithCycles(void** state)
         assert_ok(vtDecodePfm(truthBytes, truthSize, cases[i].model, &truth, &width, &height, &error), error);
         assert_int_equal(width, side);
         assert_int_equal(height, side);
-        assert_ok(vtRenderer_SetMesh(fixture->renderer, &scene.meshes[0], &error), error);
+        assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
 
         print_message("%s\n", cases[i].model);
         vtDirectionError two = measure(fixture, vt_techniqueLayered, 2, truth);
