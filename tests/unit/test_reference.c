@@ -52,6 +52,7 @@ static vtReferenceImage traceShape(const char* name, vtReferenceDef def)
 static vtFrame makeFrame(int width, int height)
 {
     vtFrame frame = vtDefaultFrame();
+    frame.ior = 1.5f;
     frame.width = width;
     frame.height = height;
     return frame;
