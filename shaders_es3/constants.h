@@ -5,7 +5,7 @@
 #define VT_MAX_REFINE 32
 #define VT_MAX_EVENTS 64
 
-#define VT_MAX_OBJECTS 1024
+#define VT_MAX_OBJECTS 1000
 
 // A stored depth runs from 0 (near) to VT_DEPTH_SCALE (far) in 16 bits; VT_DEPTH_NONE marks "no surface".
 #define VT_DEPTH_SCALE 65534.0
@@ -21,6 +21,10 @@
 // From this bit on texture reads are counted where the frame asks for it, up to VT_MAX_READS.
 #define VT_PATH_READS_SHIFT 17
 #define VT_MAX_READS 32767
+
+// Light that left a path is followed where its share is at least this; less of it comes from the environment.
+#define VT_LEAST_BRANCH 0.004
+#define VT_MAX_BRANCHES 4
 
 // What the present pass shows; the values of vtOutput.
 #define VT_OUTPUT_PICTURE 0

@@ -15,16 +15,6 @@ void absorb(inout Path p, uvec4 media, float distance)
     }
 }
 
-// Light that leaves the path: `share` of what is on it, in that direction.
-void setAside(inout Path p, vec3 direction, float share)
-{
-    vec3 light = share * p.transmittance;
-    float most = max(light.r, max(light.g, light.b));
-    p.asideDirection = most > p.mostAside ? direction : p.asideDirection;
-    p.mostAside = max(p.mostAside, most);
-    p.aside += light;
-}
-
 // Takes the path, which is at the surface of an object, through it: an event, where indices differ, or straight on.
 // N and G: the surface's outward normals, interpolated and of the triangle. `also`: another object whose surface is
 // at the same place, or -1. True where it was an event.
@@ -60,13 +50,13 @@ bool crossSurface(inout Path p, inout uvec4 media, vec3 N, vec3 G, int object, i
         // stronger part.
         bool isFirst = p.events == 1 && !leaving;
         if (!isFirst && F > 0.5) {
-            setAside(p, p.direction, 1.0 - F);
+            setAside(p, p.direction, 1.0 - F, next);
             p.transmittance *= F;
             p.direction = R;
             return true;
         }
         if (!isFirst) {
-            setAside(p, R, F);
+            setAside(p, R, F, media);
         }
         p.transmittance *= 1.0 - F;
     }

@@ -2,7 +2,7 @@
 layout(std140) uniform Frame
 {
     mat4 u_worldToCamera; // (right, up, depth) coordinates of a world point
-    vec4 u_eye;
+    vec4 u_eye; // w: path.glsl's choice
     vec4 u_pictureFrustum; // left, bottom, right, top: tangents
     vec4 u_layerFrustum;
     vec4 u_pictureDepth; // near, far, 1 / (far - near), 0

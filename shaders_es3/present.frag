@@ -40,7 +40,7 @@ void main()
     uvec2 bits = texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0).rg;
     vec4 light = vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
     if (u_output.x == VT_OUTPUT_PICTURE) {
-        o_color = vec4(linearToSrgb(light.rgb), light.a);
+        o_color = vec4(linearToSrgb(min(light.rgb, 1.0)), light.a);
     } else if (u_output.x == VT_OUTPUT_ANALYSIS) {
         uvec4 path = texelFetch(u_paths, ivec2(gl_FragCoord.xy), 0);
         bool isClear = u_output.w != 0 && int(path.w) == VT_PATH_BACKGROUND;

@@ -10,15 +10,23 @@ const int CROSS = 0, NEXT_OBJECT = 1, NEXT_AXIS = 2, WALK = 3;
 
 void main()
 {
+#ifdef BRANCH
+    uvec4 media;
+    Path p = startBranch(media);
+    SurfaceHit hit;
+    int stage = NEXT_OBJECT, met = -1;
+    Meeting nearest = Meeting(NOWHERE, VT_NO_TRIANGLE); // of all objects so far
+#else
     vec3 view;
     SurfaceHit hit = firstSurface(view);
     Path p = startPath(hit.position, view);
     uvec4 media = mediaAtEye(hit, view);
     absorb(p, media, length(hit.position - u_eye.xyz));
-    float same = 1e-5 * length(u_boundsMax.xyz - u_boundsMin.xyz); // surfaces nearer to one another lie at one place
+    int stage = CROSS, met = hit.object;
     Meeting nearest = Meeting(0.0, VT_NO_TRIANGLE); // of all objects so far; the first comes from rasterisation
-    int met = hit.object, also = -1;
-    int stage = CROSS, status = VT_PATH_LOST, object = 0, axis = 0, tried = 0, attempt = 0;
+#endif
+    float same = 1e-5 * length(u_boundsMax.xyz - u_boundsMin.xyz); // surfaces nearer to one another lie at one place
+    int also = -1, status = VT_PATH_LOST, object = 0, axis = 0, tried = 0, attempt = 0;
     bool isMissed = false;
     Search s;
     for (int round = 0; round < MOST_ROUNDS; ++round) {
@@ -112,7 +120,5 @@ void main()
             stage = NEXT_OBJECT;
         }
     }
-    writePath(p, status);
-    o_end.w = nearest.triangle;
-    o_light.w = uint(met + 1);
+    writePathEnd(p, status, nearest.triangle, status == VT_PATH_OPAQUE ? met : -1);
 }

@@ -42,7 +42,7 @@ void leaveClamped(inout Path p, vec3 N, int object, float distance)
     ++p.events;
     if (u_scene.z != 0) {
         float F = fresnel(abs(c), eta);
-        setAside(p, reflect(T, N), F);
+        setAside(p, reflect(T, N), F, uvec4(0u));
         p.transmittance *= 1.0 - F;
     }
     p.transmittance *= objectNumbers(object, VT_OBJECT_COLOR).rgb;

@@ -7,6 +7,10 @@ uniform usampler2D u_asides;
 uniform sampler2D u_environment;
 #endif
 
+uniform usampler2D u_before; // light of the passes before
+uniform int u_branch;        // number of the pass; 0: the pixels' own paths
+uniform int u_branches;      // passes that follow
+
 layout(location = 0) out uvec2 o_radiance; // four halves: linear light after exposure, share of the pixel it covers
 
 #ifdef WITH_OPAQUE
@@ -46,6 +50,37 @@ vec3 firstReflection(uvec4 surface, vec2 tangent, vec3 direction)
     return fresnel(-dot(N, direction), eta) * lightFrom(position, R);
 }
 
+// Light at the end of a pixel's path and off it.
+vec3 pathLight(ivec2 pixel, uvec4 path, int status)
+{
+    uvec4 endBits = texelFetch(u_ends, pixel, 0), bits = texelFetch(u_lights, pixel, 0);
+    vec3 position = uintBitsToFloat(endBits.xyz), direction = uintBitsToFloat(path.xyz);
+    vec2 middle = unpackHalf2x16(bits.y);
+    vec3 transmittance = vec3(unpackHalf2x16(bits.x), middle.x), more = vec3(middle.y, unpackHalf2x16(bits.z));
+    vec3 end;
+#ifdef WITH_OPAQUE
+    if (status == VT_PATH_OPAQUE) {
+        end = opaqueLight(OpaqueHit(0.0, endBits.w, int(bits.w & 2047u) - 1), position, direction);
+    } else
+#endif
+    if (status == VT_PATH_EXITED && u_scene.w == 0) {
+        end = lightFrom(position, direction);
+    } else { // a lost path shows what lies in its last direction: glass goes on being bright there
+        end = environmentRadiance(u_output.z, u_environment, direction);
+    }
+#ifdef WITH_SURFACE
+    float most = max(more.r, max(more.g, more.b));
+    bool isFollowed = u_branches > 0 && most >= VT_LEAST_BRANCH;
+    if (isFollowed || most == 0.0) {
+        more = vec3(0.0);
+    } else {
+        uvec4 aside = texelFetch(u_asides, pixel, 0);
+        more *= lightFrom(uintBitsToFloat(aside.xyz), unpackNormal(aside.w));
+    }
+#endif
+    return transmittance * end + more;
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -53,13 +88,20 @@ void main()
     uvec4 path = texelFetch(u_paths, pixel, 0);
     int status = int(path.w) & 255;
     float share = 1.0;
-    vec3 light;
+    vec3 light = vec3(0.0);
     uvec4 surface = uvec4(0u);
+    vec3 direction = cameraDirection(tangent);
 #ifdef WITH_SURFACE
     surface = texelFetch(u_surface, pixel, 0);
 #endif
-    if (status == VT_PATH_BACKGROUND) {
-        vec3 direction = cameraDirection(tangent);
+    if (status != VT_PATH_BACKGROUND) {
+        light = pathLight(pixel, path, status);
+#ifdef WITH_SURFACE
+        if (u_scene.z != 0 && u_branch == 0) {
+            light += firstReflection(surface, tangent, direction);
+        }
+#endif
+    } else if (u_branch == 0) {
 #ifdef WITH_OPAQUE
         OpaqueHit seen = OpaqueHit(uintBitsToFloat(surface.z) * length(vec3(tangent, 1.0)), surface.x, int(surface.w) - 1);
 #ifndef WITH_SURFACE
@@ -73,38 +115,16 @@ void main()
 #endif
         {
             share = u_output.w != 0 ? 0.0 : 1.0;
-            light = environmentRadiance(u_output.z, u_environment, direction);
+            light = share * environmentRadiance(u_output.z, u_environment, direction);
         }
-    } else {
-        vec3 position = uintBitsToFloat(texelFetch(u_ends, pixel, 0).xyz), direction = uintBitsToFloat(path.xyz);
-        uvec4 bits = texelFetch(u_lights, pixel, 0), aside = texelFetch(u_asides, pixel, 0);
-        vec2 middle = unpackHalf2x16(bits.y);
-        vec3 transmittance = vec3(unpackHalf2x16(bits.x), middle.x);
-        light = vec3(middle.y, unpackHalf2x16(bits.z));
-        vec3 end;
-#ifdef WITH_OPAQUE
-        if (status == VT_PATH_OPAQUE) {
-            uint triangle = texelFetch(u_ends, pixel, 0).w;
-            end = opaqueLight(OpaqueHit(0.0, triangle, int(bits.w) - 1), position, direction);
-        } else
-#endif
-        if (status == VT_PATH_EXITED && u_scene.w == 0) {
-            end = lightFrom(position, direction);
-        } else { // a lost path shows what lies in its last direction: glass goes on being bright there
-            end = environmentRadiance(u_output.z, u_environment, direction);
-        }
-        light += transmittance * end;
-        vec3 left = vec3(unpackHalf2x16(aside.y), unpackHalf2x16(aside.z).x);
-        if (left != vec3(0.0)) {
-            light += left * lightFrom(position, unpackNormal(aside.x));
-        }
-#ifdef WITH_SURFACE
-        if (u_scene.z != 0) {
-            light += firstReflection(surface, tangent, cameraDirection(tangent));
-        }
-#endif
     }
-    light = clamp(u_optics.z * light, 0.0, 1.0);
-    light = share * light;
+    light *= u_optics.z;
+    if (u_branch > 0) {
+        uvec2 before = texelFetch(u_before, pixel, 0).rg;
+        vec2 last = unpackHalf2x16(before.y);
+        light += vec3(unpackHalf2x16(before.x), last.x);
+        share = last.y;
+    }
+    light = min(light, 65504.0);
     o_radiance = uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, share)));
 }

@@ -9,11 +9,11 @@ static const struct {
     const char* name;
     int layers, steps;
     int exactLayers, exactSteps, cubeSize;
-    int maxEvents;
+    int maxEvents, branches;
 } presets[vt_presetCount] = {
-    [vt_presetLow] = {"low", 2, 25, 4, 64, 64, 4},
-    [vt_presetMedium] = {"medium", 4, 50, 8, 256, 128, 8},
-    [vt_presetHigh] = {"high", 8, 100, 8, 512, 256, 8},
+    [vt_presetLow] = {"low", 2, 25, 4, 64, 64, 4, 0},
+    [vt_presetMedium] = {"medium", 4, 50, 8, 256, 128, 8, 1},
+    [vt_presetHigh] = {"high", 8, 100, 8, 512, 256, 8, 2},
 };
 
 const char* vtPresetName(int index)
@@ -39,6 +39,13 @@ vtFrame vtResolveFrame(const vtFrame* frame)
         resolved.maxEvents = presets[row].maxEvents;
     }
     return resolved;
+}
+
+int vtFrame_BranchCount(const vtFrame* frame)
+{
+    const bool any = vtTechnique_Row(frame->technique)->branches && frame->fresnel && frame->branches >= 0 &&
+                     frame->output == vt_outputPicture;
+    return any ? frame->branches > 0 ? frame->branches : presets[frame->preset].branches : 0;
 }
 
 int vtFrame_CubeLayers(const vtFrame* frame)
@@ -111,6 +118,7 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         {"min-transmittance", frame->minTransmittance, 0, frame->maxTransmittance},
         {"power", frame->power, 0, 100},
         {"wall-thickness", frame->wallThickness, 0, 1e6},
+        {"branches", frame->branches, -1, VT_MAX_BRANCHES},
         {"multi", frame->multi, vt_multiAny, vt_multiOrdered},
         {"back-surface", frame->backSurface, vt_backSecond, vt_backFarthest},
         {"layer-source", frame->layerSource, vt_layersFromCube, vt_layersFromEye},

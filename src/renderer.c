@@ -217,6 +217,13 @@ static void endStage(const vtFrame* frame, const char* stage)
     }
 }
 
+/// Sets of path targets: the branches' two, in turns, beside the pixels' own.
+static int pathSets(const vtFrame* frame)
+{
+    const int branches = vtFrame_BranchCount(frame);
+    return 1 + (branches < 2 ? branches : 2);
+}
+
 static bool hasOpaque(const vtRenderer* renderer)
 {
     return renderer->scene.objectCount > renderer->scene.glassCount;
@@ -234,7 +241,7 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
                                       row->innerDistances, error);
     }
     if (result == vt_ok) {
-        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height,
+        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height, pathSets(frame),
                                       row->surface ? &renderer->surface.depth : NULL, error);
     }
     if (result == vt_ok && layers > 0) {
@@ -247,11 +254,12 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
         result = vtPeelPass_PrepareFarthest(&renderer->peel, gl, error);
     }
     if (result == vt_ok) {
-        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, frame->countReads, error);
+        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, frame->countReads,
+                                       vtFrame_BranchCount(frame) > 0, error);
     }
     if (result == vt_ok) {
         result = vtShadePass_Prepare(&renderer->shade, gl, frame->width, frame->height, hasOpaque(renderer),
-                                     row->surface, error);
+                                     row->surface, vtFrame_BranchCount(frame) > 0, error);
     }
     return result;
 }
@@ -360,6 +368,7 @@ static void uploadSample(const vtRenderer* renderer, int sample, int count)
         shiftFrustum(uniforms.layerFrustum, x, y, uniforms.size + 2);
     }
     uniforms.optics[3] = (float)count;
+    uniforms.eye[3] = sample == 0 ? -1.0f : vtFract(0.5f + 0.61803399f * (float)sample);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, VT_FRAME_BINDING, renderer->uniformBuffer);
     gl->BufferSubData(GL_UNIFORM_BUFFER, 0, sizeof uniforms, &uniforms);
 }
@@ -426,28 +435,42 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
         vtTexture_Bind(&renderer->bvh.triangles, gl, 12);
     }
 #endif
-    vtRefractPass_Draw(&renderer->refract, gl, frame->technique,
-                       &(vtRefractInputs){.surface = &renderer->surface.attributes,
-                                          .innerDistances = &renderer->surface.distances,
-                                          .layerDepths = &renderer->peel.depths,
-                                          .layerNormals = &renderer->peel.normals,
-                                          .mergedDepths = &renderer->merge.depths,
-                                          .cubeSurfaces = &renderer->cube.surfaces,
-                                          .cubeTriangles = &renderer->cube.triangles,
-                                          .intervals = &renderer->cube.intervals,
-                                          .triangles = &renderer->scene.triangles,
-                                          .cubeColumns = &renderer->cube.columns,
-                                          .objects = &renderer->scene.table,
-                                          .countReads = frame->countReads});
-    endStage(frame, "refract");
-    if (frame->output == vt_outputPicture) {
-        vtShadePass_Draw(&renderer->shade, gl,
-                         &(vtShadeInputs){.paths = &renderer->refract.targets,
-                                          .surface = row->surface ? &renderer->surface.attributes : NULL,
-                                          .scene = &renderer->scene,
-                                          .cube = &renderer->cube});
-        endStage(frame, "shade");
+    const vtRefractInputs inputs = {.surface = &renderer->surface.attributes,
+                                    .innerDistances = &renderer->surface.distances,
+                                    .layerDepths = &renderer->peel.depths,
+                                    .layerNormals = &renderer->peel.normals,
+                                    .mergedDepths = &renderer->merge.depths,
+                                    .cubeSurfaces = &renderer->cube.surfaces,
+                                    .cubeTriangles = &renderer->cube.triangles,
+                                    .intervals = &renderer->cube.intervals,
+                                    .triangles = &renderer->scene.triangles,
+                                    .cubeColumns = &renderer->cube.columns,
+                                    .objects = &renderer->scene.table,
+                                    .countReads = frame->countReads};
+    const int branches = vtFrame_BranchCount(frame);
+    const vtPathTargets* paths = NULL;
+    for (int branch = 0; branch <= branches; ++branch) {
+        const int set = branch == 0 ? 0 : 1 + (branch - 1) % 2;
+        vtRefractPass_Draw(&renderer->refract, gl, frame->technique, &inputs, set, paths);
+        paths = &renderer->refract.targets[set];
+        endStage(frame, "refract");
+        if (frame->output == vt_outputPicture) {
+            vtShadePass_Draw(&renderer->shade, gl,
+                             &(vtShadeInputs){.paths = paths,
+                                              .branch = branch,
+                                              .branches = branches - branch,
+                                              .surface = row->surface ? &renderer->surface.attributes : NULL,
+                                              .scene = &renderer->scene,
+                                              .cube = &renderer->cube});
+            endStage(frame, "shade");
+        }
     }
+}
+
+/// Where drawPaths has left the light.
+static const vtTexture* drawnLight(const vtRenderer* renderer, const vtFrame* frame)
+{
+    return vtShadePass_Light(&renderer->shade, vtFrame_BranchCount(frame));
 }
 
 static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
@@ -456,8 +479,8 @@ static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
     uploadSample(renderer, 0, 1);
     drawPaths(renderer, frame, true);
     vtPresentPass_Draw(&renderer->present, gl,
-                       &(vtPresentInputs){.paths = &renderer->refract.targets.paths,
-                                          .radiance = &renderer->shade.radiance,
+                       &(vtPresentInputs){.paths = &renderer->refract.targets[0].paths,
+                                          .radiance = drawnLight(renderer, frame),
                                           .layerDepths = &renderer->peel.depths,
                                           .layerNormals = &renderer->peel.normals},
                        frame->framebuffer, frame->width, frame->height);
@@ -466,9 +489,9 @@ static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
     renderer->sampleEnd = frame->output == vt_outputPicture;
 }
 
-static void addSample(vtRenderer* renderer)
+static void addSample(vtRenderer* renderer, const vtFrame* frame)
 {
-    vtAccumulatePass_Add(&renderer->accumulate, &renderer->gl, &renderer->shade.radiance);
+    vtAccumulatePass_Add(&renderer->accumulate, &renderer->gl, drawnLight(renderer, frame));
 }
 
 /// `sampleEnd`: of the frame before, if this one goes on with it, else 0.
@@ -484,14 +507,14 @@ static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
     if (sampleEnd == 0) {
         accumulate->count = 0;
     } else if (accumulate->count == 0) { // sample 0 was drawn straight, and its light is still there
-        addSample(renderer);
+        addSample(renderer, frame);
     }
     bool layersToo = sampleEnd == 0;
     const int end = frame->firstSample + frame->samples;
     for (int i = frame->firstSample > sampleEnd ? frame->firstSample : sampleEnd; i < end; ++i) {
         uploadSample(renderer, i, accumulate->count + 1);
         drawPaths(renderer, frame, layersToo);
-        addSample(renderer);
+        addSample(renderer, frame);
         // Fitted to the object, the layers stay the same for every sample: a third less time, and 0.2 to 0.4
         // dB further from the reference than with layers that move too (knot, bunny, 16 samples).
         layersToo = vtTechnique_Row(frame->technique)->layerSpace == vt_layersOfPicture;
@@ -606,13 +629,14 @@ vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_
 static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, vtError* error)
 {
     const vtGL* gl = &renderer->gl;
-    const int width = renderer->refract.targets.paths.width, height = renderer->refract.targets.paths.height;
+    const int width = renderer->refract.targets[0].paths.width,
+              height = renderer->refract.targets[0].paths.height;
     assert(width > 0 && "draw a frame before reading its directions");
     *paths = malloc(16 * (size_t)width * (size_t)height);
     if (*paths == NULL) {
         return vtFail(error, vt_errorMemory, "directions: out of memory for %d x %d pixels", width, height);
     }
-    gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->refract.framebuffer);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->refract.framebuffers[0]);
     gl->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, *paths);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
     return vt_ok;
@@ -620,7 +644,8 @@ static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, vtError* error
 
 vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error)
 {
-    const int width = renderer->refract.targets.paths.width, height = renderer->refract.targets.paths.height;
+    const int width = renderer->refract.targets[0].paths.width,
+              height = renderer->refract.targets[0].paths.height;
     uint32_t* paths;
     vtResult result = readPaths(renderer, &paths, error);
     if (result != vt_ok) {
@@ -644,7 +669,8 @@ vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtEr
 
 vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error)
 {
-    const int width = renderer->refract.targets.paths.width, height = renderer->refract.targets.paths.height;
+    const int width = renderer->refract.targets[0].paths.width,
+              height = renderer->refract.targets[0].paths.height;
     uint32_t* paths;
     vtResult result = readPaths(renderer, &paths, error);
     if (result != vt_ok) {

@@ -11,7 +11,8 @@
 #define VT_REFRACT_SAMPLERS                                                                                  \
     {                                                                                                        \
         "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects"  \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
+            "u_lightsBefore", "u_asidesBefore"                                                               \
     }
 
 // The same with two more, which the renderer binds.
@@ -147,6 +148,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .surface = true,
             .cube = true,
             .findsOpaque = true,
+            .branches = true,
             .refract = {.name = "exact",
                         .vertex = {&vtChunk_screen_vert},
                         .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,

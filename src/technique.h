@@ -20,6 +20,7 @@ typedef struct vtTechniqueRow {
     int layers;          ///< layers peeled: 0, a fixed number or VT_LAYERS_OF_FRAME
     vtLayerSpace layerSpace;
     bool cube;        ///< layered depth cube of all glass, or its like from the eye
+    bool branches;    ///< can follow light that left a path
     bool findsOpaque; ///< meets what is opaque on its paths
     bool merge;       ///< layers merged and gathered four to a texel
     bool bvh;         ///< hierarchy over the triangles
@@ -33,3 +34,6 @@ int vtFrame_LayerCount(const vtFrame* frame);
 
 /// Layers of the cubes: those of the frame, or of its preset where the technique needs none itself.
 int vtFrame_CubeLayers(const vtFrame* frame);
+
+/// Branches that the frame's paths have, 0 to VT_MAX_BRANCHES.
+int vtFrame_BranchCount(const vtFrame* frame);

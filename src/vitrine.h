@@ -314,6 +314,7 @@ typedef enum vtLayerSource {
 /// | exact: steps          | 64  | 256    | 512  |
 /// | exact: texels a side  | 64  | 128    | 256  |
 /// | events                | 4   | 8      | 8    |
+/// | exact: branches       | 0   | 1      | 2    |
 typedef enum vtPreset { vt_presetLow = 0, vt_presetMedium, vt_presetHigh, vt_presetCount } vtPreset;
 
 /// "low", "medium", "high"; NULL past the end.
@@ -342,11 +343,15 @@ typedef struct vtFrame {
     vtView view;
     vtTechnique technique;
     vtOutput output;
-    int layer;     ///< for the layer outputs: 0 (nearest) to layers - 1
-    float ior;     ///< index of refraction of all glass, 1 to 4; 0, the default: each object's own
-    bool fresnel;  ///< Fresnel reflection; without it paths only refract, or reflect where they must. Default
-                   ///< true
-    vtMulti multi; ///< layered, several objects; default vt_multiAny
+    int layer;    ///< for the layer outputs: 0 (nearest) to layers - 1
+    float ior;    ///< index of refraction of all glass, 1 to 4; 0, the default: each object's own
+    bool fresnel; ///< Fresnel reflection; without it paths only refract, or reflect where they must. Default
+                  ///< true
+    /// exact, Fresnel reflection: how often light that left a path is followed, 1 to VT_MAX_BRANCHES (each
+    /// sample a part of it); what leaves the last of them comes from the environment. -1: never; 0, the
+    /// default: the preset's
+    int branches;
+    vtMulti multi;   ///< layered, several objects; default vt_multiAny
     vtPreset preset; ///< of the settings that are 0; default vt_presetMedium
     int layers;      ///< depth layers peeled, 1 to VT_MAX_LAYERS; 0, the default: the preset's
     int steps;       ///< search steps a segment, 1 to VT_MAX_STEPS: linear ones; exact: texels of its pyramid

@@ -9,8 +9,8 @@
 
 typedef struct vtFrameUniforms {
     float worldToCamera[4][4]; ///< column-major; (right, up, depth) coordinates of a world point
-    float eye[4];
-    float pictureFrustum[4]; ///< left, bottom, right, top: tangents
+    float eye[4];              ///< the fourth: path.glsl's choice
+    float pictureFrustum[4];   ///< left, bottom, right, top: tangents
     float layerFrustum[4];
     float pictureDepth[4]; ///< near, far, 1 / (far - near), 0
     float layerDepth[4];

@@ -13,13 +13,17 @@ typedef struct vtPathTargets {
     vtTexture asides; ///< light that left the path: direction, share (three halves)
 } vtPathTargets;
 
+#define VT_PATH_SETS 3
+
 /// Follows every pixel's path through the glass with one technique of the ladder.
 typedef struct vtRefractPass {
-    GLuint programs[vt_techniqueCount]; ///< compiled when first used
-    GLuint counters[vt_techniqueCount]; ///< the same, counting texture reads
-    GLuint framebuffer;
-    GLuint glassFramebuffer; ///< the same with the surface pass's depth: only pixels that see glass are drawn
-    vtPathTargets targets;
+    GLuint programs[vt_techniqueCount];       ///< compiled when first used
+    GLuint counters[vt_techniqueCount];       ///< the same, counting texture reads
+    GLuint branchPrograms[vt_techniqueCount]; ///< the same, from where light left the paths of a set before
+    GLuint framebuffers[VT_PATH_SETS];
+    GLuint glassFramebuffers[VT_PATH_SETS]; ///< with the surface pass's depth: only pixels that see glass are
+                                            ///< drawn
+    vtPathTargets targets[VT_PATH_SETS]; ///< the pixels' own paths; then, in turns, those of their branches
 } vtRefractPass;
 
 /// What a technique may read; those it needs (its row's samplers, by these names) must exist.
@@ -39,11 +43,14 @@ typedef struct vtRefractInputs {
 } vtRefractInputs;
 
 vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, bool countReads,
-                               vtError* error);
+                               bool branches, vtError* error);
 /// surfaceDepth: of the surface pass, of the same size; NULL for a technique that has no use of it.
-vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height,
+/// sets: of targets, 1 to VT_PATH_SETS.
+vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height, int sets,
                               const vtTexture* surfaceDepth, vtError* error);
+/// Draws into a set of targets. `before`: NULL for the pixels' own paths; else those whose branches are
+/// followed.
 void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
-                        const vtRefractInputs* inputs);
+                        const vtRefractInputs* inputs, int set, const vtPathTargets* before);
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl);
 size_t vtRefractPass_Bytes(const vtRefractPass* pass);

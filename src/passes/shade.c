@@ -10,7 +10,7 @@
     {                                                                                                        \
         "u_paths", "u_ends", "u_lights", "u_asides", "u_surface", "u_environment", "u_objects",              \
             "u_triangles", "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_cubeColumns",              \
-            "u_attributes", "u_images", "u_lighting"                                                         \
+            "u_attributes", "u_images", "u_lighting", "u_before"                                             \
     }
 
 // By whether there is something opaque, and a first surface.
@@ -118,15 +118,20 @@ vtResult vtShadePass_SetEnvironment(vtShadePass* pass, const vtGL* gl, const vtE
 }
 
 vtResult vtShadePass_Prepare(vtShadePass* pass, const vtGL* gl, int width, int height, bool opaque,
-                             bool surface, vtError* error)
+                             bool surface, bool branches, vtError* error)
 {
     vtResult result = vtSucceed(error);
-    if (pass->programs[opaque][surface] == 0) {
-        result = vtCreateProgram(gl, &programDefs[opaque][surface], &pass->programs[opaque][surface], error);
+    vtShadeProgram* program = &pass->programs[opaque][surface];
+    if (program->name == 0) {
+        result = vtCreateProgram(gl, &programDefs[opaque][surface], &program->name, error);
+        program->branch = gl->GetUniformLocation(program->name, "u_branch");
+        program->branches = gl->GetUniformLocation(program->name, "u_branches");
     }
-    if (result == vt_ok && vtTexture_Resize(&pass->radiance, gl, GL_RG32UI, width, height, 0)) {
-        vtAttachment color = {&pass->radiance, 0};
-        result = vtMakeFramebuffer(gl, "shade", &color, 1, NULL, &pass->framebuffer, error);
+    for (int i = 0; i < 1 + branches && result == vt_ok; ++i) {
+        if (vtTexture_Resize(&pass->radiances[i], gl, GL_RG32UI, width, height, 0)) {
+            vtAttachment color = {&pass->radiances[i], 0};
+            result = vtMakeFramebuffer(gl, "shade", &color, 1, NULL, &pass->framebuffers[i], error);
+        }
     }
     if (result == vt_ok && opaque && pass->lighting.name == 0) {
         vtLighting lighting;
@@ -143,8 +148,12 @@ void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInpu
 {
     const vtSceneBuffer* scene = inputs->scene;
     const bool opaque = scene->objectCount > scene->glassCount;
-    vtBindFramebuffer(gl, pass->framebuffer, pass->radiance.width, pass->radiance.height);
-    gl->UseProgram(pass->programs[opaque][inputs->surface != NULL]);
+    const vtShadeProgram* program = &pass->programs[opaque][inputs->surface != NULL];
+    const vtTexture* radiance = vtShadePass_Light(pass, inputs->branch);
+    vtBindFramebuffer(gl, pass->framebuffers[inputs->branch % 2], radiance->width, radiance->height);
+    gl->UseProgram(program->name);
+    gl->Uniform1i(program->branch, inputs->branch);
+    gl->Uniform1i(program->branches, inputs->branches);
     // Units as VT_SHADE_SAMPLERS names them.
     const vtTexture* units[] = {&inputs->paths->paths,
                                 &inputs->paths->ends,
@@ -160,7 +169,8 @@ void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInpu
                                 &inputs->cube->columns,
                                 &scene->attributes,
                                 &scene->images,
-                                &pass->lighting};
+                                &pass->lighting,
+                                inputs->branch > 0 ? vtShadePass_Light(pass, inputs->branch - 1) : NULL};
     for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
         if (units[unit] != NULL && units[unit]->name != 0) {
             vtTexture_Bind(units[unit], gl, unit);
@@ -169,15 +179,21 @@ void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInpu
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+const vtTexture* vtShadePass_Light(const vtShadePass* pass, int branch)
+{
+    return &pass->radiances[branch % 2];
+}
+
 void vtShadePass_Destroy(vtShadePass* pass, const vtGL* gl)
 {
     for (int i = 0; i < 4; ++i) {
-        gl->DeleteProgram(pass->programs[i / 2][i % 2]);
+        gl->DeleteProgram(pass->programs[i / 2][i % 2].name);
     }
-    vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
+    vtDestroyFramebuffers(gl, pass->framebuffers, 2);
     vtTexture_Destroy(&pass->environment, gl);
     vtTexture_Destroy(&pass->lighting, gl);
-    vtTexture_Destroy(&pass->radiance, gl);
+    vtTexture_Destroy(&pass->radiances[0], gl);
+    vtTexture_Destroy(&pass->radiances[1], gl);
     vtDestroyEnvironment(&pass->light);
     *pass = (vtShadePass){0};
 }
@@ -185,5 +201,5 @@ void vtShadePass_Destroy(vtShadePass* pass, const vtGL* gl)
 size_t vtShadePass_Bytes(const vtShadePass* pass)
 {
     return vtTexture_Bytes(&pass->environment) + vtTexture_Bytes(&pass->lighting) +
-           vtTexture_Bytes(&pass->radiance);
+           vtTexture_Bytes(&pass->radiances[0]) + vtTexture_Bytes(&pass->radiances[1]);
 }

@@ -1,0 +1,21 @@
+// The paths of light that left the paths of the pass before (path.glsl), each from where it did.
+#define BRANCH
+uniform usampler2D u_lightsBefore;
+uniform usampler2D u_asidesBefore;
+
+Path startBranch(out uvec4 media)
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    uvec4 light = texelFetch(u_lightsBefore, pixel, 0), aside = texelFetch(u_asidesBefore, pixel, 0);
+    vec3 share = vec3(unpackHalf2x16(light.y).y, unpackHalf2x16(light.z));
+    if (strongest(share) < VT_LEAST_BRANCH) {
+        discard;
+    }
+    Path p = startPath(uintBitsToFloat(aside.xyz), unpackNormal(aside.w));
+    p.transmittance = share;
+    p.choice = fract(7.0 * p.choice);
+    p.choice = u_eye.w < 0.0 ? u_eye.w : p.choice;
+    p.events = 1; // it met the surface that it left the path at
+    media = uvec4((light.w >> 11u) & 1023u, light.w >> 21u, 0u, 0u);
+    return p;
+}
