@@ -57,9 +57,9 @@
 #define VT_OBJECT_TEXELS 19
 #define VT_OBJECT_LAYERS 0    // four: rows of the matrix from the world to its layers, whose coordinates run from 0 to 1
 #define VT_OBJECT_TRANSFORM 4 // three: rows of the matrix from the world to its own coordinates
-#define VT_OBJECT_EXTENT 7    // of its cube along the axes, own units; its box's diagonal, world
-#define VT_OBJECT_LOW 8       // its box, world; number of its layers among those of all
-#define VT_OBJECT_HIGH 9      // its box, world; 1 where it is opaque
+#define VT_OBJECT_EXTENT 7    // of its cube along the axes, own units; number of its layers times two, plus one if opaque
+#define VT_OBJECT_LOW 8       // its box, world; its diagonal
+#define VT_OBJECT_HIGH 9      // its box, world; 0
 #define VT_OBJECT_GLASS 10    // index of refraction, absorption a unit of length (red, green, blue)
 #define VT_OBJECT_COLOR 11    // tint or base colour; number of its first attribute record, or VT_NO_TRIANGLE
 #define VT_OBJECT_SURFACE 12  // metallic, roughness, checker squares a unit of texture coordinates, 0

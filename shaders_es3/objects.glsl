@@ -18,24 +18,27 @@ vec4 objectNumbers(int object, int part)
     return uintBitsToFloat(objectBits(object, part));
 }
 
-bool isOpaque(int object)
+// Rows of the matrix from the world to the object's own coordinates.
+struct Transform {
+    vec4 x, y, z;
+};
+
+Transform readTransform(int object)
 {
-    return objectBits(object, VT_OBJECT_HIGH).w != 0u;
+    return Transform(objectNumbers(object, VT_OBJECT_TRANSFORM), objectNumbers(object, VT_OBJECT_TRANSFORM + 1),
+                     objectNumbers(object, VT_OBJECT_TRANSFORM + 2));
 }
 
 // A world point or, with w = 0, a world vector in the object's own coordinates.
-vec3 toObject(int object, vec4 p)
+vec3 toObject(Transform t, vec4 p)
 {
-    return vec3(dot(objectNumbers(object, VT_OBJECT_TRANSFORM), p), dot(objectNumbers(object, VT_OBJECT_TRANSFORM + 1), p),
-                dot(objectNumbers(object, VT_OBJECT_TRANSFORM + 2), p));
+    return vec3(dot(t.x, p), dot(t.y, p), dot(t.z, p));
 }
 
 // An outward normal of the object's in the world.
-vec3 normalToWorld(int object, vec3 n)
+vec3 normalToWorld(Transform t, vec3 n)
 {
-    return normalize(n.x * objectNumbers(object, VT_OBJECT_TRANSFORM).xyz +
-                     n.y * objectNumbers(object, VT_OBJECT_TRANSFORM + 1).xyz +
-                     n.z * objectNumbers(object, VT_OBJECT_TRANSFORM + 2).xyz);
+    return normalize(n.x * t.x.xyz + n.y * t.y.xyz + n.z * t.z.xyz);
 }
 
 const float NOWHERE = 1e30; // farther than anything

@@ -5,10 +5,10 @@ void main()
     SurfaceHit hit = firstSurface(view);
     Path p = startPath(hit.position, view);
     uvec4 media = mediaAtEye(hit, view);
-    absorb(p, media, length(hit.position - u_eye.xyz));
+    float distance = length(hit.position - u_eye.xyz);
     int status = VT_PATH_EXITED;
     while (true) {
-        crossSurface(p, media, hit.normal, hit.flatNormal, hit.object, -1);
+        crossSurface(p, media, distance, hit, -1);
         bool inside = media != uvec4(0u);
         bool last = p.events >= u_search.w;
         bool found = !(inside && last) && searchLayers(p.position, p.direction, inside, hit);
@@ -16,7 +16,7 @@ void main()
             status = inside || found ? VT_PATH_LOST : VT_PATH_EXITED;
             break;
         }
-        absorb(p, media, length(hit.position - p.position));
+        distance = length(hit.position - p.position);
         p.position = hit.position;
     }
     writePath(p, status);

@@ -11,7 +11,7 @@ void main()
     SurfaceHit hit = firstSurface(view);
     Path p = startPath(hit.position, view);
     uvec4 media = uvec4(0u);
-    crossSurface(p, media, hit.normal, hit.flatNormal, hit.object, -1);
+    crossSurface(p, media, 0.0, hit, -1);
     vec3 T1 = p.direction;
     LayerRay ray = makeLayerRay(hit.position, T1);
 

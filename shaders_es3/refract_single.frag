@@ -5,6 +5,6 @@ void main()
     SurfaceHit hit = firstSurface(direction);
     Path p = startPath(hit.position, direction);
     uvec4 media = mediaAtEye(hit, direction);
-    crossSurface(p, media, hit.normal, hit.flatNormal, hit.object, -1);
+    crossSurface(p, media, 0.0, hit, -1);
     writePath(p, VT_PATH_EXITED);
 }

@@ -20,7 +20,7 @@ void main()
     SurfaceHit hit = firstSurface(view);
     Path p = startPath(hit.position, view);
     uvec4 media = uvec4(0u);
-    crossSurface(p, media, hit.normal, hit.flatNormal, hit.object, -1);
+    crossSurface(p, media, 0.0, hit, -1);
     vec3 T1 = p.direction;
 
     // d = (theta_t / theta_i) dV + (1 - theta_t / theta_i) dN
@@ -30,7 +30,7 @@ void main()
                            length(u_boundsMax.xyz - u_boundsMin.xyz);
     float incoming = acos(clamp(-dot(view, hit.normal), 0.0, 1.0));
     float refracted = acos(clamp(-dot(T1, hit.normal), 0.0, 1.0));
-    float ratio = incoming > 1e-4 ? refracted / incoming : 1.0 / indexOf(uint(hit.object + 1));
+    float ratio = incoming > 1e-4 ? refracted / incoming : 1.0 / glassOf(uint(hit.object + 1)).x;
     float distance = mix(normalDistance, viewDistance, ratio);
     vec3 P2 = hit.position + distance * T1;
 

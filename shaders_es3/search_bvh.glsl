@@ -96,11 +96,11 @@ bool searchBvh(vec3 origin, vec3 direction, bool inside, float nearest, out Tria
     return hit.triangle != NOTHING;
 }
 
-SurfaceHit surfaceAt(TriangleHit found, vec3 position)
+SurfaceHit surfaceAt(TriangleHit found, vec3 position, Transform transform)
 {
     uvec4 a = triangleTexel(found.triangle, 0), b = triangleTexel(found.triangle, 1);
     uvec4 c = triangleTexel(found.triangle, 2), n = triangleTexel(found.triangle, 3);
     vec3 A = uintBitsToFloat(a.xyz), B = uintBitsToFloat(b.xyz), C = uintBitsToFloat(c.xyz);
     vec3 normal = (1.0 - found.u - found.v) * unpackNormal(n.x) + found.u * unpackNormal(n.y) + found.v * unpackNormal(n.z);
-    return SurfaceHit(position, normalToWorld(0, normal), normalToWorld(0, cross(B - A, C - A)), 0);
+    return SurfaceHit(position, normalToWorld(transform, normal), normalToWorld(transform, cross(B - A, C - A)), 0);
 }

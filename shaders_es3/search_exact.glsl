@@ -32,6 +32,9 @@ const float START_INSIDE = 4.0, START_OUTSIDE = 8.0;
 const float WINDOW = 4.0; // depth about the ray within which a cell's surface is tried
 const float REACH = 8.0;  // depth beyond the cell up to which a walk may end
 
+// Of the mesh's size: distance from which surfaces count.
+const float START = 1e-5;
+
 // A ray as one side sees it: (column, row, depth), in cells between texel centres and steps of stored depth.
 // Depth grows along it: mirrored where it would not.
 struct CubeRay {
@@ -43,13 +46,17 @@ struct CubeRay {
     bool isCut; // it ends before it leaves the side
 };
 
-CubeRay makeCubeRay(vec3 origin, vec3 direction, int object, int axis, float farthest)
+// The axis that a direction (cube's coordinates) is nearest to.
+int mainAxis(vec3 direction, vec3 extent)
 {
-    // A projective map keeps lines straight, so that one formula serves the cube and layers from the eye.
-    mat4 rows = mat4(objectNumbers(object, VT_OBJECT_LAYERS), objectNumbers(object, VT_OBJECT_LAYERS + 1),
-                     objectNumbers(object, VT_OBJECT_LAYERS + 2), objectNumbers(object, VT_OBJECT_LAYERS + 3));
-    vec4 a = vec4(origin, 1.0) * rows;
-    vec4 b = vec4(direction, 0.0) * rows;
+    vec3 d = abs(direction * extent);
+    return u_cube.z == 1 ? 0 : d.x > d.y && d.x > d.z ? 0 : d.y > d.z ? 1 : 2;
+}
+
+// A projective map keeps lines straight, so that one formula serves the cube and layers from the eye. a, b: origin and
+// direction in the layers' coordinates.
+CubeRay makeCubeRay(vec4 a, vec4 b, int axis, float farthest)
+{
     vec3 scale = vec3(vec2(u_cube.x), VT_CUBE_DEPTH);
     vec3 o = alongAxis(a.xyz / a.w, axis) * scale - vec3(0.5, 0.5, 0.0);
     vec3 d = alongAxis((b.xyz * a.w - a.xyz * b.w) / (a.w * a.w), axis) * scale;
@@ -68,20 +75,6 @@ CubeRay makeCubeRay(vec3 origin, vec3 direction, int object, int axis, float far
     bool mirrored = d.z < 0.0;
     return CubeRay(o.xy, d.xy, inverse.xy, mirrored ? VT_CUBE_DEPTH - o.z : o.z, abs(d.z),
                    max(max(enter.x, max(enter.y, enter.z)), 0.0), min(end, limit), perspective, mirrored, limit < end);
-}
-
-// A world vector in the units of the cube.
-vec3 toLayers(int object, vec3 v)
-{
-    return vec3(dot(objectNumbers(object, VT_OBJECT_LAYERS).xyz, v), dot(objectNumbers(object, VT_OBJECT_LAYERS + 1).xyz, v),
-                dot(objectNumbers(object, VT_OBJECT_LAYERS + 2).xyz, v));
-}
-
-// The axis that the direction is nearest to.
-int mainAxis(vec3 direction, int object)
-{
-    vec3 d = abs(toLayers(object, direction) * objectNumbers(object, VT_OBJECT_EXTENT).xyz);
-    return u_cube.z == 1 ? 0 : d.x > d.y && d.x > d.z ? 0 : d.y > d.z ? 1 : 2;
 }
 
 // Where a search stands.
@@ -117,19 +110,25 @@ Passage passTile(Search s, ivec2 tile, int level)
     return p;
 }
 
-// `farthest`: distance in the world beyond which nothing is looked for.
-Search startSearch(vec3 origin, vec3 direction, int object, int axis, float farthest, int steps)
+// `axis`: -1: the one nearest to the direction. `farthest`: distance in the world beyond which nothing is looked for.
+Search startSearch(vec3 origin, vec3 direction, int object, inout int axis, float farthest, int steps)
 {
+    mat4 rows = mat4(objectNumbers(object, VT_OBJECT_LAYERS), objectNumbers(object, VT_OBJECT_LAYERS + 1),
+                     objectNumbers(object, VT_OBJECT_LAYERS + 2), objectNumbers(object, VT_OBJECT_LAYERS + 3));
+    uvec4 extent = objectBits(object, VT_OBJECT_EXTENT);
+    Transform transform = readTransform(object);
+    vec4 b = vec4(direction, 0.0) * rows;
+    axis = axis < 0 ? mainAxis(b.xyz, uintBitsToFloat(extent.xyz)) : axis;
     Search s;
-    s.ray = makeCubeRay(origin, direction, object, axis, farthest);
-    s.origin = toObject(object, vec4(origin, 1.0));
-    s.direction = toObject(object, vec4(direction, 0.0));
+    s.ray = makeCubeRay(vec4(origin, 1.0) * rows, b, axis, farthest);
+    s.origin = toObject(transform, vec4(origin, 1.0));
+    s.direction = toObject(transform, vec4(direction, 0.0));
     s.positive = ivec2(greaterThan(s.ray.direction, vec2(0.0)));
-    s.side = u_cube.z * int(objectBits(object, VT_OBJECT_LOW).w) + axis;
-    s.isOpaque = isOpaque(object);
+    s.side = u_cube.z * int(extent.w >> 1u) + axis;
+    s.isOpaque = (extent.w & 1u) != 0u;
+    s.nearest = START * length(uintBitsToFloat(extent.xyz)) * inversesqrt(dot(s.direction, s.direction));
     s.level = 0;
     s.steps = steps;
-    s.nearest = 1e-5 * objectNumbers(object, VT_OBJECT_EXTENT).w;
     s.cell = clamp(ivec2(floor(s.ray.origin + s.ray.start * s.ray.direction)), ivec2(0), ivec2(u_cube.x - 2));
     s.isOver = s.ray.start >= s.ray.end;
     return s;
@@ -223,8 +222,8 @@ struct Meeting {
 
 // Does a triangle near the cell lie in the ray's way? attempt 0: one of the column nearest to the ray, of the
 // kind that the ray looks for; 1: one of the nearest column that has any; 2 to 5: of any kind in the cell's
-// four columns.
-bool tryCell(Search s, Passage p, bool inside, int attempt, out Meeting meeting, out bool isEmpty)
+// four columns. `meeting` changes only where it does.
+bool tryCell(Search s, Passage p, bool inside, int attempt, inout Meeting meeting, out bool isEmpty)
 {
     float cellDepth = VT_CUBE_DEPTH / float(u_cube.x);
     bool wide = attempt > 1;
@@ -235,7 +234,6 @@ bool tryCell(Search s, Passage p, bool inside, int attempt, out Meeting meeting,
     uint kind = wide || s.isOpaque ? ANY : inside != s.ray.mirrored ? LEAVING : ENTERING;
     int surface = nearestSurface(s, p, texel, wide ? 1e9 : WINDOW * cellDepth, kind);
     isEmpty = surface == NO_GLASS;
-    meeting = Meeting(0.0, VT_NO_TRIANGLE);
     if (surface < 0) {
         return false;
     }
@@ -249,7 +247,9 @@ bool tryCell(Search s, Passage p, bool inside, int attempt, out Meeting meeting,
     // From the parameter back to the world; where it has no end there, neither has the walk.
     float stretch = 1.0 - s.ray.perspective * farthest;
     farthest = stretch > 0.0 ? farthest / stretch : 1e30;
-    meeting.triangle = triangle;
-    meeting.distance = distanceTo(triangle, s.origin, s.direction, inside, s.isOpaque);
-    return meeting.distance > s.nearest && meeting.distance < farthest;
+    float distance = distanceTo(triangle, s.origin, s.direction, inside, s.isOpaque);
+    bool isMet = distance > s.nearest && distance < farthest;
+    meeting.distance = isMet ? distance : meeting.distance;
+    meeting.triangle = isMet ? triangle : meeting.triangle;
+    return isMet;
 }

@@ -15,8 +15,9 @@ OpaqueHit searchOpaque(vec3 origin, vec3 direction, float farthest)
         if (!entersBox(object, origin, direction, hit.distance)) {
             continue;
         }
-        Search s = startSearch(origin, direction, object, mainAxis(direction, object), hit.distance, MOST_OPAQUE_STEPS);
-        while (true) {
+        int axis = -1;
+        Search s = startSearch(origin, direction, object, axis, hit.distance, MOST_OPAQUE_STEPS);
+        for (int round = 0; round < MOST_OPAQUE_STEPS; ++round) {
             walkTiles(s, false);
             if (s.isOver || s.steps < 0) {
                 break;

@@ -33,7 +33,7 @@ void leaveClamped(inout Path p, vec3 N, int object, float distance)
 {
     absorb(p, uvec4(uint(object + 1), uvec3(0u)), distance);
     vec3 T = p.direction;
-    float eta = indexOf(uint(object + 1));
+    float eta = glassOf(uint(object + 1)).x;
     float c = -dot(N, T);
     float k = 1.0 - eta * eta * (1.0 - c * c);
     p.direction = normalize(eta * T + (eta * c + sqrt(max(k, 0.0))) * N);

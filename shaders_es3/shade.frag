@@ -16,7 +16,8 @@ layout(location = 0) out uvec2 o_radiance; // four halves: linear light after ex
 #ifdef WITH_OPAQUE
 vec3 opaqueLight(OpaqueHit hit, vec3 origin, vec3 direction)
 {
-    vec3 w = cornerWeights(hit.triangle, toObject(hit.object, vec4(origin, 1.0)), toObject(hit.object, vec4(direction, 0.0)));
+    Transform t = readTransform(hit.object);
+    vec3 w = cornerWeights(hit.triangle, toObject(t, vec4(origin, 1.0)), toObject(t, vec4(direction, 0.0)));
     float pixel = (u_pictureFrustum.w - u_pictureFrustum.y) / float(u_size.y);
     return shadeSurface(hit.object, hit.triangle, w, direction, pixel * length(origin + hit.distance * direction - u_eye.xyz));
 }

@@ -87,7 +87,7 @@ vec3 shadeSurface(int object, uint triangle, vec3 w, vec3 I, float footprint)
     // On the viewer's side, or the triangle's own where the interpolated one faces away.
     uvec3 normals = triangleTexel(triangle, 3).xyz;
     vec3 G = normalize(area);
-    vec3 N = normalToWorld(object, w.x * unpackNormal(normals.x) + w.y * unpackNormal(normals.y) +
+    vec3 N = normalToWorld(readTransform(object), w.x * unpackNormal(normals.x) + w.y * unpackNormal(normals.y) +
                                        w.z * unpackNormal(normals.z));
     float side = dot(G, I) > 0.0 ? -1.0 : 1.0;
     N = side * (dot(side * N, I) < 0.0 ? N : G);

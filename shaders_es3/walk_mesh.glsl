@@ -63,11 +63,11 @@ vec3 cornerWeights(uint triangle, vec3 origin, vec3 direction)
 // The surface of an object of glass where the ray (world) passes through its triangle.
 SurfaceHit surfaceAt(int object, uint triangle, vec3 position, vec3 direction)
 {
-    vec3 origin = toObject(object, vec4(position, 1.0));
-    Corners t = triangleCorners(triangle, origin);
-    vec3 w = edgeVolumes(t, toObject(object, vec4(direction, 0.0)));
+    Transform transform = readTransform(object);
+    Corners t = triangleCorners(triangle, toObject(transform, vec4(position, 1.0)));
+    vec3 w = edgeVolumes(t, toObject(transform, vec4(direction, 0.0)));
     w /= w.x + w.y + w.z;
     uvec3 n = triangleTexel(triangle, 3).xyz;
     vec3 normal = w.x * unpackNormal(n.x) + w.y * unpackNormal(n.y) + w.z * unpackNormal(n.z);
-    return SurfaceHit(position, normalToWorld(object, normal), normalToWorld(object, cross(t.B - t.A, t.C - t.A)), object);
+    return SurfaceHit(position, normalToWorld(transform, normal), normalToWorld(transform, cross(t.B - t.A, t.C - t.A)), object);
 }

@@ -86,10 +86,10 @@ static void writeObject(const vtSceneBuffer* scene, const vtObjectBuffer* object
     // A little more than the box: a ray that starts on its side is within it.
     const float margin = 1e-5f * vtLength(vtSub(placed->high, placed->low));
     writeNumbers(words, VT_OBJECT_LOW, placed->low.x - margin, placed->low.y - margin, placed->low.z - margin,
-                 0.0f);
+                 vtLength(vtSub(placed->high, placed->low)));
     writeNumbers(words, VT_OBJECT_HIGH, placed->high.x + margin, placed->high.y + margin,
                  placed->high.z + margin, 0.0f);
-    words[4 * VT_OBJECT_HIGH + 3] = material->opaque;
+    words[4 * VT_OBJECT_EXTENT + 3] = material->opaque;
     writeNumbers(words, VT_OBJECT_GLASS, ior > 0.0f ? ior : material->ior, placed->absorption.x,
                  placed->absorption.y, placed->absorption.z);
     const vtVec3 color = material->opaque ? material->baseColor : material->tint;
@@ -145,9 +145,8 @@ static void placeLayers(const vtSceneBuffer* scene, const vtFrame* frame, const 
         const float* r = toLayers[row];
         writeNumbers(words, VT_OBJECT_LAYERS + row, r[0], r[1], r[2], r[3]);
     }
-    writeNumbers(words, VT_OBJECT_EXTENT, extents[0], extents[1], extents[2],
-                 vtLength(vtSub(placed->high, placed->low)));
-    words[4 * VT_OBJECT_LOW + 3] = (uint32_t)findSlot(layout, &slot);
+    writeNumbers(words, VT_OBJECT_EXTENT, extents[0], extents[1], extents[2], 0.0f);
+    words[4 * VT_OBJECT_EXTENT + 3] = 2 * (uint32_t)findSlot(layout, &slot) + slot.opaque;
 }
 
 vtResult vtCreateLayout(const vtSceneBuffer* scene, const vtFrame* frame, vtLayout* layout, vtError* error)
