@@ -5,8 +5,8 @@
 const int MOST_SURFACES = 256, MOST_ROUNDS = 1024;
 
 // Where the path meets an object next, its triangle VT_NO_TRIANGLE where it does not before `farthest`. False where it
-// must have met it, unnoticed.
-bool searchObject(Path p, int object, bool inside, float farthest, out Meeting meeting)
+// must have met it, unnoticed. isOther: the path is not on its surface now.
+bool searchObject(Path p, int object, bool inside, bool isOther, float farthest, out Meeting meeting)
 {
     meeting = Meeting(NOWHERE, VT_NO_TRIANGLE);
     int axis = -1;
@@ -31,8 +31,10 @@ bool searchObject(Path p, int object, bool inside, float farthest, out Meeting m
             if (isOver && !crossed && (!inside || s.ray.isCut)) {
                 return true;
             }
-            // Layers from the eye have no next side to ask.
-            int attempts = isEmpty && !inside ? 1 : s.isOpaque ? 1 : crossed && !isOver && u_cube.z == 1 ? 5 : 0;
+            // Layers from the eye have no next side to ask; and of a ray that only grazes an object nothing tells
+            // afterwards.
+            bool isLast = crossed && !isOver && u_cube.z == 1;
+            int attempts = isLast || (isOther && !inside) ? 5 : isEmpty && !inside ? 1 : 0;
             if (attempt < attempts) {
                 ++attempt;
                 continue;
@@ -81,22 +83,24 @@ void main()
         nearest = Meeting(NOWHERE, VT_NO_TRIANGLE);
         also = -1;
         bool isMissed = false;
+        int next = -1;
         for (int object = 0; object < u_scene.y; ++object) {
             bool inside = holds(media, uint(object + 1));
             if (u_scene.y > 1 && !inside && !entersBox(object, p.position, p.direction, nearest.distance)) {
                 continue;
             }
             Meeting meeting;
-            isMissed = !searchObject(p, object, inside, nearest.distance + same, meeting) || isMissed;
+            isMissed = !searchObject(p, object, inside, object != met, nearest.distance + same, meeting) || isMissed;
             // Touching glass is crossed at once.
             bool isSame = abs(meeting.distance - nearest.distance) <= same && meeting.distance < NOWHERE;
             also = isSame && object < u_scene.x ? object : also;
             if (meeting.distance < nearest.distance - same) {
                 nearest = meeting;
-                met = object;
+                next = object;
                 also = -1;
             }
         }
+        met = next;
         if (nearest.triangle == VT_NO_TRIANGLE) {
             status = media != uvec4(0u) || isMissed ? VT_PATH_LOST : VT_PATH_EXITED;
             break;
