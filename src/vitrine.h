@@ -334,7 +334,7 @@ typedef enum vtBackSurface {
 
 #define VT_MAX_SAMPLES 4096
 
-/// `stage`: prepare (sizes, shaders not compiled yet), bvh, surface, peel, cube, merge, refract or present;
+/// `stage`: prepare (sizes, shaders not compiled yet), bvh, cube, surface, peel, merge, refract, shade or present;
 /// those that a frame has, in this order.
 typedef void vtStageFcn(const char* stage, void* userData);
 
