@@ -15,11 +15,14 @@ typedef struct vtPathTargets {
 
 /// Follows every pixel's path through the glass with one technique of the ladder.
 typedef struct vtRefractPass {
-    GLuint programs[vt_techniqueCount]; ///< compiled when first used
-    GLuint counters[vt_techniqueCount]; ///< the same, counting texture reads
+    GLuint programs[vt_techniqueCount][vt_variantCount]; ///< compiled when first used
+    GLuint counters[vt_techniqueCount][vt_variantCount]; ///< the same, counting texture reads
     GLuint framebuffer;
     GLuint glassFramebuffer; ///< the same with the surface pass's depth: only pixels that see glass are drawn
     vtPathTargets targets;
+    // Objects in order read the paths so far from the one and write the other, the last one `targets`.
+    GLuint otherFramebuffer;
+    vtPathTargets otherTargets;
 } vtRefractPass;
 
 /// What a technique may read; those it needs (its row's samplers, by these names) must exist.
@@ -38,12 +41,17 @@ typedef struct vtRefractInputs {
     bool countReads;
 } vtRefractInputs;
 
-vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, bool countReads,
-                               vtError* error);
+vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
+                               bool countReads, vtError* error);
 /// surfaceDepth: of the surface pass, of the same size; NULL for a technique that has no use of it.
 vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height,
-                              const vtTexture* surfaceDepth, vtError* error);
-void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
+                              const vtTexture* surfaceDepth, vtVariant variant, vtError* error);
+void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
                         const vtRefractInputs* inputs);
+/// One after the other: clears the paths that the first of so many objects goes on from, then each of them,
+/// `left` more to come after it.
+void vtRefractPass_ClearOrdered(const vtRefractPass* pass, const vtGL* gl, uint32_t count);
+void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
+                               const vtRefractInputs* inputs, uint32_t object, uint32_t left);
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl);
 size_t vtRefractPass_Bytes(const vtRefractPass* pass);
