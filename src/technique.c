@@ -22,6 +22,14 @@
             "u_bvhNodes", "u_bvhTriangles"                                                                   \
     }
 
+// The same with the paths so far.
+#define VT_ORDERED_SAMPLERS                                                                                  \
+    {                                                                                                        \
+        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
+            "u_paths", "u_ends", "u_lights", "u_asides"                                                      \
+    }
+
 // What `layered` has in common whatever is around.
 #define VT_LAYERED_CHUNKS                                                                                    \
     &vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media, &vtChunk_optics,                   \
@@ -152,6 +160,10 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                                        &vtChunk_search_exact, &vtChunk_search_opaque,
                                                        &vtChunk_refract_layered_frag},
                                           .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantOrdered] = {.name = "layered ordered",
+                                           .vertex = {&vtChunk_screen_vert},
+                                           .fragment = {VT_LAYERED_CHUNKS, &vtChunk_refract_ordered_frag},
+                                           .samplers = VT_ORDERED_SAMPLERS},
         },
     [vt_techniqueExact] =
         {
