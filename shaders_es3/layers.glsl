@@ -2,29 +2,36 @@
 uniform usampler2DArray u_mergedDepths; // four layers a texel
 uniform usampler2DArray u_layerNormals; // interpolated, of the triangle; not merged
 
-uint layerDepth(int layer, ivec2 texel)
+// Slices of the merged depths that a set of layers takes.
+int layerGroups()
 {
-    return texelFetch(u_mergedDepths, ivec3(texel, layer / 4), 0)[layer % 4];
+    return (u_search.x + 3) / 4;
+}
+
+uint layerDepth(Layers layers, int layer, ivec2 texel)
+{
+    return texelFetch(u_mergedDepths, ivec3(texel, layers.slot * layerGroups() + layer / 4), 0)[layer % 4];
 }
 
 // Normals of a merged layer: those of the layer that its depth came from.
-uvec2 layerNormals(int layer, ivec2 texel)
+uvec2 layerNormals(Layers layers, int layer, ivec2 texel)
 {
-    uvec2 normals = texelFetch(u_layerNormals, ivec3(texel, layer), 0).rg;
+    int first = layers.slot * u_search.x;
+    uvec2 normals = texelFetch(u_layerNormals, ivec3(texel, first + layer), 0).rg;
     while (normals.x == VT_NO_NORMAL && layer >= 2) {
         layer -= 2;
-        normals = texelFetch(u_layerNormals, ivec3(texel, layer), 0).rg;
+        normals = texelFetch(u_layerNormals, ivec3(texel, first + layer), 0).rg;
     }
     return normals;
 }
 
 // One flag a layer: set where the point lies behind it (the paper's "-").
-int layersInFront(vec3 point)
+int layersInFront(Layers layers, vec3 point)
 {
     ivec2 texel = layerTexel(point.xy);
-    int flags = 0;
+    int flags = 0, first = layers.slot * layerGroups();
     for (int group = 0; 4 * group < u_search.x; ++group) {
-        vec4 depths = vec4(texelFetch(u_mergedDepths, ivec3(texel, group), 0));
+        vec4 depths = vec4(texelFetch(u_mergedDepths, ivec3(texel, first + group), 0));
         ivec4 behind = ivec4(lessThan(depths, vec4(point.z)));
         flags += (behind.x + 2 * behind.y + 4 * behind.z + 8 * behind.w) << (4 * group);
     }
@@ -39,12 +46,12 @@ struct Column {
     float beforeDepth, afterDepth;
 };
 
-Column readColumn(ivec2 texel, float depth)
+Column readColumn(Layers layers, ivec2 texel, float depth)
 {
     Column column = Column(false, -1, -1, 0.0, 0.0);
     vec2 lower = vec2(-1.0); // of the two layers before: a merged layer repeats it where it is empty
     for (int layer = 0; layer < u_search.x; ++layer) {
-        float stored = float(layerDepth(layer, texel));
+        float stored = float(layerDepth(layers, layer, texel));
         bool isNew = stored != lower.x && stored <= VT_DEPTH_SCALE;
         if (isNew && stored < depth) {
             column.inside = !column.inside;

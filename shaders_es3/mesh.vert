@@ -1,4 +1,4 @@
-// An object's mesh from the eye, through FRUSTUM and DEPTH_RANGE (the picture's or the layers').
+// An object's mesh from the eye, through FRUSTUM and DEPTH_RANGE (picture.glsl, layer.glsl, layer_of_object.glsl).
 uniform vec4 u_toWorld[3]; // rows
 uniform vec4 u_toObject[3];
 
@@ -20,8 +20,9 @@ vec3 toWorld(vec4 p)
 void main()
 {
     vec3 p = (u_worldToCamera * vec4(toWorld(vec4(a_position, 1.0)), 1.0)).xyz;
-    vec2 xy = (2.0 * p.xy - (FRUSTUM.xy + FRUSTUM.zw) * p.z) / (FRUSTUM.zw - FRUSTUM.xy);
-    float z = ((DEPTH_RANGE.x + DEPTH_RANGE.y) * p.z - 2.0 * DEPTH_RANGE.x * DEPTH_RANGE.y) * DEPTH_RANGE.z;
+    vec4 f = FRUSTUM, d = DEPTH_RANGE;
+    vec2 xy = (2.0 * p.xy - (f.xy + f.zw) * p.z) / (f.zw - f.xy);
+    float z = ((d.x + d.y) * p.z - 2.0 * d.x * d.y) * d.z;
     gl_Position = vec4(xy, z, p.z);
     v_camera = p;
     v_normal = a_normal.x * u_toObject[0].xyz + a_normal.y * u_toObject[1].xyz + a_normal.z * u_toObject[2].xyz;

@@ -15,6 +15,7 @@ void main()
     }
 #endif
     o_normals = surfaceNormals();
-    float depth = (v_camera.z - u_layerDepth.x) * u_layerDepth.z;
+    vec4 range = DEPTH_RANGE;
+    float depth = (v_camera.z - range.x) * range.z;
     o_depth = uint(clamp(depth, 0.0, 1.0) * VT_DEPTH_SCALE + 0.5);
 }

@@ -7,13 +7,14 @@
 // say what the paper does); a ray that leaves the silhouette without a hit takes the last point within.
 void main()
 {
+    Layers layers = layersOfAll();
     vec3 view;
     SurfaceHit hit = firstSurface(view);
     Path p = startPath(hit.position, view);
     uvec4 media = uvec4(0u);
     crossSurface(p, media, 0.0, hit, -1);
     vec3 T1 = p.direction;
-    LayerRay ray = makeLayerRay(hit.position, T1);
+    LayerRay ray = makeLayerRay(layers, hit.position, T1);
 
     // E, where the ray reaches the far end (or, turned towards the eye, the near one) of the depth range.
     float goal = ray.direction.z >= 0.0 ? u_layerDepth.y : u_layerDepth.x;
@@ -24,7 +25,7 @@ void main()
     // Linear, to the first point behind the back side or off it.
     float before = 0.0, behind = stride;
     for (int i = 1; i < u_search.y; ++i) {
-        vec3 point = layerPoint(ray, behind);
+        vec3 point = layerPoint(layers, ray, behind);
         uint stored = backDepth(point.xy);
         if (stored == VT_DEPTH_NONE || point.z > float(stored)) {
             break;
@@ -34,7 +35,7 @@ void main()
     }
     for (int i = 0; i < u_search.z; ++i) {
         float middle = 0.5 * (before + behind);
-        vec3 point = layerPoint(ray, middle);
+        vec3 point = layerPoint(layers, ray, middle);
         uint stored = backDepth(point.xy);
         if (stored == VT_DEPTH_NONE || point.z > float(stored)) {
             behind = middle;
@@ -43,7 +44,7 @@ void main()
         }
     }
 
-    vec3 N2 = backNormal(layerPoint(ray, before).xy);
+    vec3 N2 = backNormal(layerPoint(layers, ray, before).xy);
     if (dot(N2, N2) == 0.0) {
         writePath(p, VT_PATH_LOST);
         return;

@@ -16,6 +16,7 @@ float backViewDistance(vec2 position, vec3 viewDirection)
 
 void main()
 {
+    Layers layers = layersOfAll();
     vec3 view;
     SurfaceHit hit = firstSurface(view);
     Path p = startPath(hit.position, view);
@@ -24,7 +25,7 @@ void main()
     vec3 T1 = p.direction;
 
     // d = (theta_t / theta_i) dV + (1 - theta_t / theta_i) dN
-    vec2 here = layerPoint(makeLayerRay(hit.position, T1), 0.0).xy;
+    vec2 here = layerPoint(layers, makeLayerRay(layers, hit.position, T1), 0.0).xy;
     float viewDistance = max(backViewDistance(here, view) - length(hit.position - u_eye.xyz), 0.0);
     float normalDistance = float(texelFetch(u_innerDistances, ivec2(gl_FragCoord.xy), 0).r) / VT_DEPTH_SCALE *
                            length(u_boundsMax.xyz - u_boundsMin.xyz);
@@ -35,7 +36,7 @@ void main()
     vec3 P2 = hit.position + distance * T1;
 
     // Where P2 misses the silhouette: the normal that faces the side, across the look-at direction L.
-    vec2 there = layerPoint(makeLayerRay(P2, T1), 0.0).xy;
+    vec2 there = layerPoint(layers, makeLayerRay(layers, P2, T1), 0.0).xy;
     vec3 N2 = backDepth(there) != VT_DEPTH_NONE ? backNormal(there) : vec3(0.0);
     if (dot(N2, N2) == 0.0) {
         vec3 L = vec3(0.0, 0.0, 1.0) * mat3(u_worldToCamera);

@@ -18,15 +18,22 @@ const float FIRST_STEP = 0.1; // of a linear step: clears the surface that the r
 const float BOX_MARGIN = 4.0; // texels at the far end
 const int MOST_FAULTS = 16;   // passed on the way of one segment
 
-// Distance along the ray to where it leaves the object's box, widened by a few texels: a face of the object
-// that lies in a face of its box is found only once the ray is behind the depth of the texel there.
-float boxExit(vec3 origin, vec3 direction)
+// A texel's side at a distance from the eye.
+float texelSize(Layers layers, float distance)
 {
-    float margin = BOX_MARGIN * u_layerDepth.y * (u_layerFrustum.z - u_layerFrustum.x) / float(u_size.z);
-    vec3 low = (u_boundsMin.xyz - margin - origin) / direction;
-    vec3 high = (u_boundsMax.xyz + margin - origin) / direction;
-    vec3 leave = max(low, high);
-    return max(min(leave.x, min(leave.y, leave.z)), 0.0);
+    return distance * (layers.frustum.z - layers.frustum.x) / float(u_size.z);
+}
+
+// Distances along the ray to where it enters (0 where it starts within) and leaves the layers' box, widened by a few
+// texels: a face of the object that lies in a face of its box is found only once the ray is behind the depth of the
+// texel there. It misses the box where it enters behind where it leaves.
+vec2 boxSpan(Layers layers, vec3 origin, vec3 direction)
+{
+    float margin = BOX_MARGIN * layers.depths.y * (layers.frustum.z - layers.frustum.x) / float(u_size.z);
+    vec3 low = (layers.low - margin - origin) / direction;
+    vec3 high = (layers.high + margin - origin) / direction;
+    vec3 enter = min(low, high), leave = max(low, high);
+    return vec2(max(max(enter.x, max(enter.y, enter.z)), 0.0), max(min(leave.x, min(leave.y, leave.z)), 0.0));
 }
 
 bool facesRightWay(vec3 normal, vec3 direction, bool inside)
@@ -35,7 +42,7 @@ bool facesRightWay(vec3 normal, vec3 direction, bool inside)
 }
 
 // The hit near parameter t on a continuous piece of a layer, from the tangent planes of 2 x 2 texels.
-SurfaceHit blendTexels(int layer, vec3 origin, vec3 direction, vec3 point, float t, float jump, uvec2 nearest)
+SurfaceHit blendTexels(Layers layers, int layer, vec3 origin, vec3 direction, vec3 point, float t, float jump, uvec2 nearest)
 {
     vec3 nearestNormal = unpackNormal(nearest.x);
     vec3 nearestFlat = unpackNormal(nearest.y);
@@ -46,8 +53,8 @@ SurfaceHit blendTexels(int layer, vec3 origin, vec3 direction, vec3 point, float
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
         ivec2 texel = layerTexel(corner + vec2(step) + 0.5);
-        float stored = float(layerDepth(layer, texel));
-        uvec2 bits = layerNormals(layer, texel);
+        float stored = float(layerDepth(layers, layer, texel));
+        uvec2 bits = layerNormals(layers, layer, texel);
         if (stored > VT_DEPTH_SCALE || abs(stored - point.z) > jump || bits.x == VT_NO_NORMAL) {
             continue; // another surface
         }
@@ -62,7 +69,7 @@ SurfaceHit blendTexels(int layer, vec3 origin, vec3 direction, vec3 point, float
         }
         vec2 w = mix(1.0 - fraction, fraction, vec2(step));
         float weight = w.x * w.y + 1e-4;
-        float hit = dot(layerWorldPoint(texel, stored) - (origin + t * direction), g) / slope;
+        float hit = dot(layerWorldPoint(layers, texel, stored) - (origin + t * direction), g) / slope;
         offset += weight * hit;
         normal += weight * n;
         flatNormal += weight * g;
@@ -72,19 +79,19 @@ SurfaceHit blendTexels(int layer, vec3 origin, vec3 direction, vec3 point, float
         return SurfaceHit(origin + t * direction, nearestNormal, nearestFlat, 0);
     }
     // A plane met at a grazing angle may lie far off: stay within the neighbourhood of the texels.
-    float texel = 2.0 * length(origin + t * direction - u_eye.xyz) * (u_layerFrustum.z - u_layerFrustum.x) / float(u_size.z);
+    float texel = 2.0 * length(origin + t * direction - u_eye.xyz) * (layers.frustum.z - layers.frustum.x) / float(u_size.z);
     offset = clamp(offset / total, -texel, texel);
     return SurfaceHit(origin + (t + offset) * direction, normalize(normal), normalize(flatNormal), 0);
 }
 
 // A wall between two columns: its normal runs from that of the surface before to that of the one behind.
-bool wallBetween(vec3 inner, vec3 outer, vec3 direction, bool inside, vec3 position, out SurfaceHit hit)
+bool wallBetween(Layers layers, vec3 inner, vec3 outer, vec3 direction, bool inside, vec3 position, out SurfaceHit hit)
 {
     ivec2 texel = layerTexel(inner.xy);
-    Column column = readColumn(texel, inner.z);
-    bool isWall = column.inside && column.after >= 0 && !readColumn(layerTexel(outer.xy), outer.z).inside;
-    uvec2 before = layerNormals(max(column.before, 0), texel);
-    uvec2 after = layerNormals(max(column.after, 0), texel);
+    Column column = readColumn(layers, texel, inner.z);
+    bool isWall = column.inside && column.after >= 0 && !readColumn(layers, layerTexel(outer.xy), outer.z).inside;
+    uvec2 before = layerNormals(layers, max(column.before, 0), texel);
+    uvec2 after = layerNormals(layers, max(column.after, 0), texel);
     float share = (inner.z - column.beforeDepth) / max(column.afterDepth - column.beforeDepth, 1.0);
     vec3 normal = mix(unpackNormal(before.x), unpackNormal(after.x), share);
     float size = length(normal);
@@ -98,33 +105,41 @@ bool wallBetween(vec3 inner, vec3 outer, vec3 direction, bool inside, vec3 posit
 // The nearest layer whose flag changed between two near points of the ray and which is a surface there. Case
 // 3 of the paper, a hit: its depths at both points differ by less than a step. Case 2: they do not, the ray
 // passed a fault. -1: none.
-int surfaceBetween(ivec2 texelA, ivec2 texelB, int changed, vec3 direction, bool inside, float jump)
+int surfaceBetween(Layers layers, ivec2 texelA, ivec2 texelB, int changed, vec3 direction, bool inside, float jump)
 {
     int found = -1;
     for (int layer = 0; layer < u_search.x; ++layer) {
-        float depthA = float(layerDepth(layer, texelA));
-        float depthB = float(layerDepth(layer, texelB));
+        float depthA = float(layerDepth(layers, layer, texelA));
+        float depthB = float(layerDepth(layers, layer, texelB));
         bool continuous = max(depthA, depthB) <= VT_DEPTH_SCALE && abs(depthA - depthB) <= jump;
-        bool faces = facesRightWay(unpackNormal(layerNormals(layer, texelB).y), direction, inside);
+        bool faces = facesRightWay(unpackNormal(layerNormals(layers, layer, texelB).y), direction, inside);
         bool here = (changed >> layer) % 2 != 0 && continuous && faces;
         found = here && found < 0 ? layer : found;
     }
     return found;
 }
 
-// The first surface that a ray from a surface meets. False where it meets none. The linear steps are a loop
-// of their own, with nothing else in it: software renderers, and GPUs whose pixels part ways, pay for every
-// branch inside a loop at every step.
-bool searchLayers(vec3 origin, vec3 direction, bool inside, out SurfaceHit hit)
+// The first surface of the layers that a ray meets before it has gone `farthest`. `start`: whether it starts on one of
+// them; else it is searched from where it enters their box. False where it meets none. The linear steps are a loop of
+// their own, with nothing else in it: software renderers, and GPUs whose pixels part ways, pay for every branch inside
+// a loop at every step.
+bool searchLayers(Layers layers, vec3 origin, vec3 direction, bool inside, bool start, float farthest, out SurfaceHit hit)
 {
-    float end = boxExit(origin, direction);
+    vec2 span = boxSpan(layers, origin, direction);
+    span.x = start ? 0.0 : span.x;
+    if (span.x > min(span.y, farthest)) {
+        return false;
+    }
+    origin += span.x * direction;
+    float end = span.y - span.x;
     float stride = end / float(u_search.y);
     float jump = VT_DEPTH_SCALE / float(u_search.y);
-    LayerRay ray = makeLayerRay(origin, direction);
+    LayerRay ray = makeLayerRay(layers, origin, direction);
+    end = min(end, farthest - span.x);
 
     // Step clear of the surface that the ray starts on, then note which layers lie in front.
-    float a = FIRST_STEP * stride;
-    int flags = layersInFront(layerPoint(ray, a));
+    float a = start ? FIRST_STEP * stride : 0.0;
+    int flags = layersInFront(layers, layerPoint(layers, ray, a));
     int steps = u_search.y;
     for (int fault = 0; fault <= MOST_FAULTS; ++fault) {
         // Linear steps. Case 1 of the paper: no flag changes, go on.
@@ -133,7 +148,7 @@ bool searchLayers(vec3 origin, vec3 direction, bool inside, out SurfaceHit hit)
         while (next == flags && b < end && steps > 0) {
             a = b;
             b = min(a + stride, end);
-            next = layersInFront(layerPoint(ray, b));
+            next = layersInFront(layers, layerPoint(layers, ray, b));
             --steps;
         }
         if (next == flags) {
@@ -142,19 +157,19 @@ bool searchLayers(vec3 origin, vec3 direction, bool inside, out SurfaceHit hit)
         // Halving, to the first change.
         for (int k = 0; k < u_search.z; ++k) {
             float middle = 0.5 * (a + b);
-            int there = layersInFront(layerPoint(ray, middle));
+            int there = layersInFront(layers, layerPoint(layers, ray, middle));
             bool same = there == flags;
             a = same ? middle : a;
             b = same ? b : middle;
             next = same ? next : there;
         }
-        vec3 pointA = layerPoint(ray, a), pointB = layerPoint(ray, b);
+        vec3 pointA = layerPoint(layers, ray, a), pointB = layerPoint(layers, ray, b);
         ivec2 texelA = layerTexel(pointA.xy), texelB = layerTexel(pointB.xy);
-        int layer = surfaceBetween(texelA, texelB, next ^ flags, direction, inside, jump);
-        SurfaceHit surface = blendTexels(max(layer, 0), origin, direction, pointB, b, jump,
-                                         layerNormals(max(layer, 0), texelB));
+        int layer = surfaceBetween(layers, texelA, texelB, next ^ flags, direction, inside, jump);
+        SurfaceHit surface = blendTexels(layers, max(layer, 0), origin, direction, pointB, b, jump,
+                                         layerNormals(layers, max(layer, 0), texelB));
         SurfaceHit wall;
-        bool isWall = wallBetween(inside ? pointA : pointB, inside ? pointB : pointA, direction, inside,
+        bool isWall = wallBetween(layers, inside ? pointA : pointB, inside ? pointB : pointA, direction, inside,
                                   origin + 0.5 * (a + b) * direction, wall);
         if (layer >= 0 || isWall) {
             hit = wall;

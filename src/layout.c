@@ -74,7 +74,9 @@ static void writeNumbers(uint32_t* words, int part, float x, float y, float z, f
     memcpy(words + 4 * part, numbers, sizeof numbers);
 }
 
-static void writeObject(const vtSceneBuffer* scene, const vtObjectBuffer* object, float ior, uint32_t* words)
+/// `share`: of its diagonal, by which its box is wider.
+static void writeObject(const vtSceneBuffer* scene, const vtObjectBuffer* object, float ior, float share,
+                        uint32_t* words)
 {
     const vtPlacedObject* placed = &object->placed;
     const vtMaterial* material = &object->material;
@@ -83,8 +85,7 @@ static void writeObject(const vtSceneBuffer* scene, const vtObjectBuffer* object
         const float* r = placed->toObject.rows[row];
         writeNumbers(words, VT_OBJECT_TRANSFORM + row, r[0], r[1], r[2], r[3]);
     }
-    // A little more than the box: a ray that starts on its side is within it.
-    const float margin = 1e-5f * vtLength(vtSub(placed->high, placed->low));
+    const float margin = share * vtLength(vtSub(placed->high, placed->low));
     writeNumbers(words, VT_OBJECT_LOW, placed->low.x - margin, placed->low.y - margin, placed->low.z - margin,
                  vtLength(vtSub(placed->high, placed->low)));
     writeNumbers(words, VT_OBJECT_HIGH, placed->high.x + margin, placed->high.y + margin,
@@ -149,6 +150,15 @@ static void placeLayers(const vtSceneBuffer* scene, const vtFrame* frame, const 
     words[4 * VT_OBJECT_EXTENT + 3] = 2 * (uint32_t)findSlot(layout, &slot) + slot.opaque;
 }
 
+/// The frustum of the layers that an object has to itself, and their number among those of all.
+static void writeFrustum(const vtFrame* frame, const vtPlacedObject* placed, uint32_t slot, uint32_t* words)
+{
+    const vtFrustum f = vtMakeLayerFrustum(&frame->view, placed->low, placed->high);
+    writeNumbers(words, VT_OBJECT_FRUSTUM, f.left, f.bottom, f.right, f.top);
+    writeNumbers(words, VT_OBJECT_DEPTHS, f.near, f.far, 1.0f / (f.far - f.near), 0.0f);
+    words[4 * VT_OBJECT_LOW + 3] = slot;
+}
+
 vtResult vtCreateLayout(const vtSceneBuffer* scene, const vtFrame* frame, vtLayout* layout, vtError* error)
 {
     const uint32_t count = scene->objectCount;
@@ -160,12 +170,18 @@ vtResult vtCreateLayout(const vtSceneBuffer* scene, const vtFrame* frame, vtLayo
         vtDestroyLayout(layout);
         return vtFail(error, vt_errorMemory, "scene: out of memory for %u objects", count);
     }
-    const bool glassToo = vtTechnique_Row(frame->technique)->cube;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t* words = layout->words + 4 * VT_OBJECT_TEXELS * (size_t)i;
-        writeObject(scene, &scene->objects[i], frame->ior, words);
-        if (glassToo || scene->objects[i].material.opaque) {
-            placeLayers(scene, frame, &scene->objects[i], layout, words);
+        const vtObjectBuffer* object = &scene->objects[i];
+        const bool peeled = row->layerSpace == vt_layersOfEachObject && !object->material.opaque;
+        // A little more than the box: a ray that starts on its side is within it. Layers are widened by whole
+        // texels (search_layered.glsl).
+        writeObject(scene, object, frame->ior, peeled ? 0.0f : 1e-5f, words);
+        if (row->cube || object->material.opaque) {
+            placeLayers(scene, frame, object, layout, words);
+        } else if (peeled) {
+            writeFrustum(frame, &object->placed, i, words);
         }
     }
     return vt_ok;

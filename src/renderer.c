@@ -42,6 +42,7 @@ struct vtRenderer {
     vtFrameUniforms uniforms; // of the pixel's centre
     vtTechnique technique;
     vtBackSurface backSurface;
+    vtMulti multi;
     int sampleEnd; // the first sample not drawn yet; 0: nothing to go on with
     // vtRenderer_DrawImage draws into this.
     GLuint imageFramebuffer;
@@ -52,9 +53,6 @@ static vtResult createPasses(vtRenderer* renderer, vtError* error)
 {
     const vtGL* gl = &renderer->gl;
     vtResult result = vtSurfacePass_Create(&renderer->surface, gl, error);
-    if (result == vt_ok) {
-        result = vtPeelPass_Create(&renderer->peel, gl, error);
-    }
     if (result == vt_ok) {
         result = vtMergePass_Create(&renderer->merge, gl, error);
     }
@@ -163,13 +161,18 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
     return result;
 }
 
-static bool drawsFarthest(const vtFrame* frame)
+static vtPeelKind choosePeelKind(const vtFrame* frame)
 {
-    return vtTechnique_Row(frame->technique)->innerDistances && frame->backSurface == vt_backFarthest;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    if (row->innerDistances && frame->backSurface == vt_backFarthest) {
+        return vt_peelFarthest;
+    }
+    return row->layerSpace == vt_layersOfEachObject ? vt_peelEachObject : vt_peelAll;
 }
 
-/// Layer textures as long on their longer side as asked, in the shape of their frustum.
-static void chooseLayerSize(const vtFrame* frame, const vtFrustum* frustum, int* width, int* height)
+/// Layer textures as long on their longer side as asked, in the shape of their frustum, and not smaller than
+/// they are so far.
+static void extendLayerSize(const vtFrame* frame, const vtFrustum* frustum, int* width, int* height)
 {
     int side = frame->layerSize > 0           ? frame->layerSize
                : frame->width > frame->height ? frame->width
@@ -178,8 +181,33 @@ static void chooseLayerSize(const vtFrame* frame, const vtFrustum* frustum, int*
     float across = frustum->right - frustum->left, down = frustum->top - frustum->bottom;
     float longer = fmaxf(across, down);
     // Rounded up to sixteens: a turning object then rarely makes the textures anew.
-    *width = ((int)ceilf((float)side * across / longer) + 15) / 16 * 16;
-    *height = ((int)ceilf((float)side * down / longer) + 15) / 16 * 16;
+    const int columns = ((int)ceilf((float)side * across / longer) + 15) / 16 * 16;
+    const int rows = ((int)ceilf((float)side * down / longer) + 15) / 16 * 16;
+    *width = columns > *width ? columns : *width;
+    *height = rows > *height ? rows : *height;
+}
+
+/// The frustum of the one set of layers, if there is one, and the size of all sets.
+static vtFrustum chooseLayers(const vtSceneBuffer* scene, const vtFrame* frame, const vtFrustum* picture,
+                              int* width, int* height)
+{
+    const vtLayerSpace space = vtTechnique_Row(frame->technique)->layerSpace;
+    if (space == vt_layersOfPicture) {
+        *width = frame->width;
+        *height = frame->height;
+        return *picture;
+    }
+    *width = *height = 0;
+    const vtFrustum all = vtMakeLayerFrustum(&frame->view, scene->glassMin, scene->glassMax);
+    for (uint32_t i = 0; i < scene->glassCount && space == vt_layersOfEachObject; ++i) {
+        const vtPlacedObject* placed = &scene->objects[i].placed;
+        const vtFrustum own = vtMakeLayerFrustum(&frame->view, placed->low, placed->high);
+        extendLayerSize(frame, &own, width, height);
+    }
+    if (*width == 0) {
+        extendLayerSize(frame, &all, width, height);
+    }
+    return all;
 }
 
 static void setVec4(float* out, float x, float y, float z, float w)
@@ -235,26 +263,31 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     const int layers = vtFrame_LayerCount(frame);
+    const vtPeelKind kind = choosePeelKind(frame);
+    const int sets =
+        kind == vt_peelEachObject && renderer->scene.glassCount > 0 ? (int)renderer->scene.glassCount : 1;
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
     vtResult result = vt_ok;
     if (row->surface) {
         result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
                                       row->innerDistances, error);
     }
     if (result == vt_ok) {
-        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height, pathSets(frame),
+        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height,
+                                      variant == vt_variantOrdered ? 2 : pathSets(frame),
                                       row->surface ? &renderer->surface.depth : NULL, error);
     }
     if (result == vt_ok && layers > 0) {
-        result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, layers, error);
+        result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, layers, sets, error);
+    }
+    if (result == vt_ok && layers > 0) {
+        result = vtPeelPass_Prepare(&renderer->peel, gl, kind, error);
     }
     if (result == vt_ok && row->merge) {
-        result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, layers, error);
-    }
-    if (result == vt_ok && drawsFarthest(frame)) {
-        result = vtPeelPass_PrepareFarthest(&renderer->peel, gl, error);
+        result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, layers, sets, error);
     }
     if (result == vt_ok) {
-        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, frame->countReads,
+        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, variant, frame->countReads,
                                        vtFrame_BranchCount(frame) > 0, error);
     }
     if (result == vt_ok) {
@@ -315,12 +348,8 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtFrame
     const vtVec3 low = scene->glassMin, high = scene->glassMax;
     float aspect = (float)frame->width / (float)frame->height;
     vtFrustum picture = vtMakePictureFrustum(&frame->view, aspect, scene->low, scene->high);
-    vtFrustum layers = picture;
-    int layerWidth = frame->width, layerHeight = frame->height;
-    if (row->layerSpace == vt_layersOfObject) {
-        layers = vtMakeLayerFrustum(&frame->view, low, high);
-        chooseLayerSize(frame, &layers, &layerWidth, &layerHeight);
-    }
+    int layerWidth, layerHeight;
+    const vtFrustum layers = chooseLayers(scene, frame, &picture, &layerWidth, &layerHeight);
     vtResult result = resizeTargets(renderer, frame, layerWidth, layerHeight, error);
     if (result != vt_ok) {
         return result;
@@ -337,7 +366,8 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtFrame
         .size = {frame->width, frame->height, layerWidth, layerHeight},
         .cube = {frame->cubeSize, vtFrame_CubeLayers(frame), frame->layerSource == vt_layersFromEye ? 1 : 3,
                  frame->topLevel},
-        .scene = {(int)scene->glassCount, (int)scene->objectCount, frame->fresnel, row->findsOpaque},
+        .scene = {(int)scene->glassCount, (int)scene->objectCount, frame->fresnel,
+                  row->findsOpaque && vtFrame_Variant(frame, true) != vt_variantOrdered},
         .output = {frame->output, frame->layer, renderer->environment, frame->transparentBackground},
     };
     setCamera(uniforms, &frame->view);
@@ -407,21 +437,44 @@ static vtResult prepareBvh(vtRenderer* renderer, const vtFrame* frame, vtError* 
 }
 #endif
 
+/// One object after the other, from the eye; then the surfaces of all are there again.
+static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, const vtRefractInputs* inputs)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtSceneBuffer* scene = &renderer->scene;
+    const uint32_t count = scene->glassCount;
+    vtRefractPass_ClearOrdered(&renderer->refract, gl, count);
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t object = scene->order[i];
+        if (count > 1) {
+            vtSurfacePass_Draw(&renderer->surface, gl, scene, object, object + 1, false,
+                               renderer->emptyVertexArray);
+            gl->BindVertexArray(renderer->emptyVertexArray);
+            endStage(frame, "surface");
+        }
+        vtRefractPass_DrawOrdered(&renderer->refract, gl, frame->technique, inputs, object, count - 1 - i);
+        endStage(frame, "refract");
+    }
+    if (count > 1) {
+        vtSurfacePass_Draw(&renderer->surface, gl, scene, 0, count, false, renderer->emptyVertexArray);
+        gl->BindVertexArray(renderer->emptyVertexArray);
+        endStage(frame, "surface");
+    }
+}
+
 /// Everything up to the light, with the uniform block that was uploaded.
 static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
 {
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
     if (row->surface) {
-        vtSurfacePass_Draw(&renderer->surface, gl, &renderer->scene, row->innerDistances,
-                           renderer->emptyVertexArray);
+        vtSurfacePass_Draw(&renderer->surface, gl, &renderer->scene, 0, renderer->scene.glassCount,
+                           row->innerDistances, renderer->emptyVertexArray);
         endStage(frame, "surface");
     }
-    if (layersToo && drawsFarthest(frame)) {
-        vtPeelPass_DrawFarthest(&renderer->peel, gl, &renderer->scene);
-        endStage(frame, "peel");
-    } else if (layersToo && row->layers != 0) {
-        vtPeelPass_Draw(&renderer->peel, gl, &renderer->scene);
+    if (layersToo && row->layers != 0) {
+        vtPeelPass_Draw(&renderer->peel, gl, &renderer->scene, choosePeelKind(frame));
         endStage(frame, "peel");
     }
     gl->BindVertexArray(renderer->emptyVertexArray);
@@ -451,9 +504,13 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
     const vtPathTargets* paths = NULL;
     for (int branch = 0; branch <= branches; ++branch) {
         const int set = branch == 0 ? 0 : 1 + (branch - 1) % 2;
-        vtRefractPass_Draw(&renderer->refract, gl, frame->technique, &inputs, set, paths);
+        if (variant == vt_variantOrdered) {
+            drawOrdered(renderer, frame, &inputs);
+        } else {
+            vtRefractPass_Draw(&renderer->refract, gl, frame->technique, variant, &inputs, set, paths);
+            endStage(frame, "refract");
+        }
         paths = &renderer->refract.targets[set];
-        endStage(frame, "refract");
         if (frame->output == vt_outputPicture) {
             vtShadePass_Draw(&renderer->shade, gl,
                              &(vtShadeInputs){.paths = paths,
@@ -546,8 +603,8 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
         }
     }
     vtFrameUniforms uniforms;
-    const bool sameRest =
-        renderer->technique == frame->technique && renderer->backSurface == frame->backSurface;
+    const bool sameRest = renderer->technique == frame->technique &&
+                          renderer->backSurface == frame->backSurface && renderer->multi == frame->multi;
     renderer->sampleEnd = frame->firstSample > 0 && sameRest ? renderer->sampleEnd : 0;
     result = prepareFrame(renderer, frame, &uniforms, error);
     if (result != vt_ok) {
@@ -557,6 +614,8 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     renderer->uniforms = uniforms;
     renderer->technique = frame->technique;
     renderer->backSurface = frame->backSurface;
+    renderer->multi = frame->multi;
+    vtSceneBuffer_SortGlass(&renderer->scene, frame->view.eye);
 
     endStage(frame, "prepare");
 #ifdef VT_WITH_BVH

@@ -23,6 +23,20 @@
             "u_bvhNodes", "u_bvhTriangles"                                                                   \
     }
 
+// The same with the paths so far.
+#define VT_ORDERED_SAMPLERS                                                                                  \
+    {                                                                                                        \
+        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
+            "u_paths", "u_ends", "u_lights", "u_asides"                                                      \
+    }
+
+// What `layered` has in common whatever is around.
+#define VT_LAYERED_CHUNKS                                                                                    \
+    &vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media, &vtChunk_optics,                   \
+        &vtChunk_cross_surface, &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_layers_of_object,     \
+        &vtChunk_layers, &vtChunk_search_layered
+
 static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueKayLinear] =
         {
@@ -34,11 +48,11 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .refracts = false},
             .layers = VT_LAYERS_OF_FRAME,
             .layerSpace = vt_layersOfPicture,
-            .refract = {.name = "kay-linear",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay,
-                                     &vtChunk_refract_kay_linear_frag},
-                        .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantAny] = {.name = "kay-linear",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay,
+                                                    &vtChunk_refract_kay_linear_frag},
+                                       .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueKayNonlinear] =
         {
@@ -49,11 +63,12 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .refracts = false},
             .layers = VT_LAYERS_OF_FRAME,
             .layerSpace = vt_layersOfPicture,
-            .refract = {.name = "kay-nonlinear",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay, &vtChunk_transparency,
-                                     &vtChunk_refract_kay_nonlinear_frag},
-                        .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantAny] = {.name = "kay-nonlinear",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay,
+                                                    &vtChunk_transparency,
+                                                    &vtChunk_refract_kay_nonlinear_frag},
+                                       .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueKayThickness] =
         {
@@ -64,11 +79,12 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .refracts = true},
             .layers = VT_LAYERS_OF_FRAME,
             .layerSpace = vt_layersOfPicture,
-            .refract = {.name = "kay-thickness",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay, &vtChunk_transparency,
-                                     &vtChunk_refract_kay_thickness_frag},
-                        .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantAny] = {.name = "kay-thickness",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay,
+                                                    &vtChunk_transparency,
+                                                    &vtChunk_refract_kay_thickness_frag},
+                                       .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueSingle] =
         {
@@ -78,12 +94,12 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .year = 2003,
                      .refracts = true},
             .surface = true,
-            .refract = {.name = "single",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
-                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
-                                     &vtChunk_refract_single_frag},
-                        .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantAny] = {.name = "single",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
+                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
+                                                    &vtChunk_first_surface, &vtChunk_refract_single_frag},
+                                       .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueWyman] =
         {
@@ -95,13 +111,14 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .surface = true,
             .innerDistances = true,
             .layers = 2,
-            .refract = {.name = "wyman",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
-                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
-                                     &vtChunk_layer_space, &vtChunk_second_layer,
-                                     &vtChunk_refract_wyman_frag},
-                        .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantAny] = {.name = "wyman",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
+                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
+                                                    &vtChunk_first_surface, &vtChunk_layer_space,
+                                                    &vtChunk_layers_of_all, &vtChunk_second_layer,
+                                                    &vtChunk_refract_wyman_frag},
+                                       .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueOliveira] =
         {
@@ -112,13 +129,14 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .refracts = true},
             .surface = true,
             .layers = 2,
-            .refract = {.name = "oliveira",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
-                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
-                                     &vtChunk_layer_space, &vtChunk_second_layer,
-                                     &vtChunk_refract_oliveira_frag},
-                        .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantAny] = {.name = "oliveira",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
+                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
+                                                    &vtChunk_first_surface, &vtChunk_layer_space,
+                                                    &vtChunk_layers_of_all, &vtChunk_second_layer,
+                                                    &vtChunk_refract_oliveira_frag},
+                                       .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueLayered] =
         {
@@ -130,13 +148,23 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .surface = true,
             .layers = VT_LAYERS_OF_FRAME,
             .merge = true,
-            .refract = {.name = "layered",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
-                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
-                                     &vtChunk_layer_space, &vtChunk_layers, &vtChunk_search_layered,
-                                     &vtChunk_refract_layered_frag},
-                        .samplers = VT_REFRACT_SAMPLERS},
+            .layerSpace = vt_layersOfEachObject,
+            .findsOpaque = true,
+            .refract[vt_variantAny] = {.name = "layered",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {VT_LAYERED_CHUNKS, &vtChunk_refract_layered_frag},
+                                       .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantOpaque] = {.name = "layered opaque",
+                                          .vertex = {&vtChunk_screen_vert},
+                                          .fragment = {VT_LAYERED_CHUNKS, &vtChunk_with_opaque,
+                                                       &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
+                                                       &vtChunk_search_exact, &vtChunk_search_opaque,
+                                                       &vtChunk_refract_layered_frag},
+                                          .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantOrdered] = {.name = "layered ordered",
+                                           .vertex = {&vtChunk_screen_vert},
+                                           .fragment = {VT_LAYERED_CHUNKS, &vtChunk_refract_ordered_frag},
+                                           .samplers = VT_ORDERED_SAMPLERS},
         },
     [vt_techniqueExact] =
         {
@@ -149,13 +177,14 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .cube = true,
             .findsOpaque = true,
             .branches = true,
-            .refract = {.name = "exact",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
-                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
-                                     &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
-                                     &vtChunk_search_exact, &vtChunk_refract_exact_frag},
-                        .samplers = VT_REFRACT_SAMPLERS},
+            .refract[vt_variantAny] = {.name = "exact",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
+                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
+                                                    &vtChunk_first_surface, &vtChunk_triangles, &vtChunk_cube,
+                                                    &vtChunk_walk_mesh, &vtChunk_search_exact,
+                                                    &vtChunk_refract_exact_frag},
+                                       .samplers = VT_REFRACT_SAMPLERS},
         },
 #ifdef VT_WITH_BVH
     [vt_techniqueBvh] =
@@ -168,12 +197,13 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .refracts = true},
             .surface = true,
             .bvh = true,
-            .refract = {.name = "bvh",
-                        .vertex = {&vtChunk_screen_vert},
-                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media,
-                                     &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface,
-                                     &vtChunk_triangles, &vtChunk_search_bvh, &vtChunk_refract_bvh_frag},
-                        .samplers = VT_BVH_SAMPLERS},
+            .refract[vt_variantAny] = {.name = "bvh",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
+                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
+                                                    &vtChunk_first_surface, &vtChunk_triangles,
+                                                    &vtChunk_search_bvh, &vtChunk_refract_bvh_frag},
+                                       .samplers = VT_BVH_SAMPLERS},
         },
 #endif
 };
@@ -182,6 +212,15 @@ const vtTechniqueRow* vtTechnique_Row(vtTechnique technique)
 {
     assert(technique >= 0 && technique < vt_techniqueCount);
     return &rows[technique];
+}
+
+vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque)
+{
+    const vtProgramDef* defs = vtTechnique_Row(frame->technique)->refract;
+    if (frame->multi == vt_multiOrdered && defs[vt_variantOrdered].name != NULL) {
+        return vt_variantOrdered;
+    }
+    return opaque && defs[vt_variantOpaque].name != NULL ? vt_variantOpaque : vt_variantAny;
 }
 
 int vtFrame_LayerCount(const vtFrame* frame)

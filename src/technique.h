@@ -5,12 +5,22 @@
 
 /// The frustum that a technique's layers lie in.
 typedef enum vtLayerSpace {
-    vt_layersOfObject,  ///< fitted to the object: rays do not leave it
-    vt_layersOfPicture, ///< the picture's own, pixel on pixel
+    vt_layersOfGlass = 0,  ///< one set for all glass, fitted to it: rays do not leave it
+    vt_layersOfEachObject, ///< a set for each object of glass, fitted to it
+    vt_layersOfPicture,    ///< one set, the picture's own, pixel on pixel
 } vtLayerSpace;
 
 /// Number of layers as the frame says.
 #define VT_LAYERS_OF_FRAME -1
+
+/// Programs that follow paths.
+typedef enum vtVariant {
+    vt_variantAny = 0, ///< through all glass
+    vt_variantOpaque,  ///< the same where the scene has something opaque, if a technique has one of its own
+    vt_variantOrdered, ///< through one object, from where the objects before have left the path
+                       ///< (vt_multiOrdered)
+    vt_variantCount,
+} vtVariant;
 
 /// A rung of the ladder: what users read of it, the passes it needs, and what its refract pass is made of.
 typedef struct vtTechniqueRow {
@@ -19,15 +29,19 @@ typedef struct vtTechniqueRow {
     bool innerDistances; ///< per-vertex distance inwards, with it
     int layers;          ///< layers peeled: 0, a fixed number or VT_LAYERS_OF_FRAME
     vtLayerSpace layerSpace;
-    bool cube;        ///< layered depth cube of all glass, or its like from the eye
-    bool branches;    ///< can follow light that left a path
-    bool findsOpaque; ///< meets what is opaque on its paths
-    bool merge;       ///< layers merged and gathered four to a texel
-    bool bvh;         ///< hierarchy over the triangles
-    vtProgramDef refract;
+    bool cube;                             ///< layered depth cube of all glass, or its like from the eye
+    bool branches;                         ///< can follow light that left a path
+    bool findsOpaque;                      ///< meets what is opaque on its paths
+    bool merge;                            ///< layers merged and gathered four to a texel
+    bool bvh;                              ///< hierarchy over the triangles
+    vtProgramDef refract[vt_variantCount]; ///< those without a name are not there
 } vtTechniqueRow;
 
 const vtTechniqueRow* vtTechnique_Row(vtTechnique technique);
+
+/// The program for the frame; `opaque`: there is something that is. Ordered where frame->multi says so and
+/// the technique can.
+vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque);
 
 /// Layers that the frame's technique peels.
 int vtFrame_LayerCount(const vtFrame* frame);

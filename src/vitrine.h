@@ -334,8 +334,8 @@ typedef enum vtBackSurface {
 
 #define VT_MAX_SAMPLES 4096
 
-/// `stage`: prepare (sizes, shaders not compiled yet), bvh, cube, surface, peel, merge, refract, shade or present;
-/// those that a frame has, in this order.
+/// `stage`: prepare (sizes, shaders not compiled yet), bvh, cube, surface, peel, merge, refract, shade or
+/// present; those that a frame has, in this order.
 typedef void vtStageFcn(const char* stage, void* userData);
 
 /// Everything that decides one picture.

@@ -177,7 +177,8 @@ static vtResult createBuffer(vtSceneBuffer* buffer, const vtGL* gl, const vtScen
     }
     buffer->objects = calloc(scene->objectCount, sizeof *buffer->objects);
     buffer->words = calloc(scene->objectCount, VT_OBJECT_TEXELS * 4 * sizeof *buffer->words);
-    if (buffer->objects == NULL || buffer->words == NULL) {
+    buffer->order = calloc(scene->objectCount, sizeof *buffer->order);
+    if (buffer->objects == NULL || buffer->words == NULL || buffer->order == NULL) {
         return vtFail(error, vt_errorMemory, "scene: out of memory for %u objects", scene->objectCount);
     }
     buffer->objectCount = scene->objectCount;
@@ -227,6 +228,7 @@ void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl)
     free(buffer->cubeFrames);
     free(buffer->objects);
     free(buffer->words);
+    free(buffer->order);
     vtTexture_Destroy(&buffer->triangles, gl);
     vtTexture_Destroy(&buffer->attributes, gl);
     vtTexture_Destroy(&buffer->images, gl);
@@ -247,6 +249,24 @@ bool vtSceneBuffer_SetTable(vtSceneBuffer* buffer, const vtGL* gl, const uint32_
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, VT_OBJECT_TEXELS, (GLsizei)buffer->objectCount, GL_RGBA_INTEGER,
                       GL_UNSIGNED_INT, words);
     return true;
+}
+
+static float distanceFrom(vtVec3 eye, const vtPlacedObject* placed)
+{
+    return vtLength(vtSub(vtScale(vtAdd(placed->low, placed->high), 0.5f), eye));
+}
+
+void vtSceneBuffer_SortGlass(vtSceneBuffer* buffer, vtVec3 eye)
+{
+    for (uint32_t i = 0; i < buffer->glassCount; ++i) {
+        const float distance = distanceFrom(eye, &buffer->objects[i].placed);
+        uint32_t place = i;
+        while (place > 0 && distanceFrom(eye, &buffer->objects[buffer->order[place - 1]].placed) > distance) {
+            buffer->order[place] = buffer->order[place - 1];
+            --place;
+        }
+        buffer->order[place] = i;
+    }
 }
 
 // ------------------------------------------------------------------------------------------------ drawing

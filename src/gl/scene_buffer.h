@@ -26,6 +26,7 @@ typedef struct vtSceneBuffer {
     uint32_t meshCount;
     vtObjectBuffer* objects; ///< by rank: glass, then what is opaque
     uint32_t objectCount, glassCount;
+    uint32_t* order;           ///< of the glass, from an eye: vtSceneBuffer_SortGlass
     vtVec3 glassMin, glassMax; ///< box of the glass, or of all where there is none; world
     vtVec3 low, high;          ///< of all
     vtTexture triangles;  ///< RGBA32UI, scene/triangles.h, of all meshes; neighbours by their number in it
@@ -43,6 +44,9 @@ void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl);
 /// Uploads the table where `words`, objectCount * VT_OBJECT_TEXELS * 4, differ from what it holds; true where
 /// they do.
 bool vtSceneBuffer_SetTable(vtSceneBuffer* buffer, const vtGL* gl, const uint32_t* words);
+
+/// Objects of glass by the distance of the middle of their boxes, the nearest first.
+void vtSceneBuffer_SortGlass(vtSceneBuffer* buffer, vtVec3 eye);
 
 /// Those that a program has.
 vtObjectUniforms vtFindObjectUniforms(const vtGL* gl, GLuint program);

@@ -16,40 +16,40 @@ vtResult vtMergePass_Create(vtMergePass* pass, const vtGL* gl, vtError* error)
     vtResult result = vtCreateProgram(gl, &programDef, &pass->program, error);
     if (result == vt_ok) {
         pass->groupLocation = gl->GetUniformLocation(pass->program, "u_group");
+        pass->firstLayerLocation = gl->GetUniformLocation(pass->program, "u_firstLayer");
     }
     return result;
 }
 
-vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers,
+vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers, int sets,
                             vtError* error)
 {
-    int groups = (layers + 3) / 4;
-    if (!vtTexture_Resize(&pass->depths, gl, GL_RGBA16UI, width, height, groups)) {
+    const int groups = (layers + 3) / 4;
+    pass->layers = layers;
+    if (!vtTexture_Resize(&pass->depths, gl, GL_RGBA16UI, width, height, groups * sets)) {
         return vtSucceed(error);
     }
-    vtDestroyFramebuffers(gl, pass->framebuffers, VT_MAX_LAYER_GROUPS);
-    vtResult result = vt_ok;
-    for (int group = 0; group < groups && result == vt_ok; ++group) {
-        vtAttachment color = {&pass->depths, group};
-        result = vtMakeFramebuffer(gl, "merge", &color, 1, NULL, &pass->framebuffers[group], error);
-    }
-    return result;
+    vtAttachment color = {&pass->depths, 0};
+    return vtMakeFramebuffer(gl, "merge", &color, 1, NULL, &pass->framebuffer, error);
 }
 
 void vtMergePass_Draw(const vtMergePass* pass, const vtGL* gl, const vtTexture* layerDepths)
 {
+    const int groups = (pass->layers + 3) / 4;
     gl->UseProgram(pass->program);
     vtTexture_Bind(layerDepths, gl, 0);
-    for (int group = 0; group < pass->depths.layers; ++group) {
-        vtBindFramebuffer(gl, pass->framebuffers[group], pass->depths.width, pass->depths.height);
-        gl->Uniform1i(pass->groupLocation, group);
+    vtBindFramebuffer(gl, pass->framebuffer, pass->depths.width, pass->depths.height);
+    for (int slice = 0; slice < pass->depths.layers; ++slice) {
+        gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, pass->depths.name, 0, slice);
+        gl->Uniform1i(pass->groupLocation, slice % groups);
+        gl->Uniform1i(pass->firstLayerLocation, slice / groups * pass->layers);
         gl->DrawArrays(GL_TRIANGLES, 0, 3);
     }
 }
 
 void vtMergePass_Destroy(vtMergePass* pass, const vtGL* gl)
 {
-    vtDestroyFramebuffers(gl, pass->framebuffers, VT_MAX_LAYER_GROUPS);
+    vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtTexture_Destroy(&pass->depths, gl);
     gl->DeleteProgram(pass->program);
     *pass = (vtMergePass){0};

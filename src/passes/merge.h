@@ -7,13 +7,15 @@
 /// reads four layers at once.
 typedef struct vtMergePass {
     GLuint program;
-    GLint groupLocation;
-    GLuint framebuffers[VT_MAX_LAYER_GROUPS];
-    vtTexture depths; ///< RGBA16UI array, four layers a texel
+    GLint groupLocation, firstLayerLocation;
+    GLuint framebuffer;
+    int layers;       ///< of a set
+    vtTexture depths; ///< RGBA16UI array, four layers a texel, set after set
 } vtMergePass;
 
 vtResult vtMergePass_Create(vtMergePass* pass, const vtGL* gl, vtError* error);
-vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers,
+vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers, int sets,
                             vtError* error);
+/// layerDepths: as vtPeelPass has them.
 void vtMergePass_Draw(const vtMergePass* pass, const vtGL* gl, const vtTexture* layerDepths);
 void vtMergePass_Destroy(vtMergePass* pass, const vtGL* gl);

@@ -6,26 +6,34 @@
 
 /// Depth peeling (Everitt 2001), front to back, one drawing of the mesh a layer, normals and depth through
 /// multiple render targets. Front and back faces both count as layers.
+/// What is peeled.
+typedef enum vtPeelKind {
+    vt_peelAll = 0,    ///< all glass, one set of layers
+    vt_peelEachObject, ///< a set of layers for each object of glass, in the frustum that the table gives it
+    vt_peelFarthest,   ///< all glass, its farthest surface alone, into the second layer's place (Wyman 2005)
+    vt_peelKindCount,
+} vtPeelKind;
+
 typedef struct vtPeelPass {
-    GLuint program, farthestProgram;
-    vtObjectUniforms uniforms, farthestUniforms;
+    GLuint programs[vt_peelKindCount]; ///< compiled when first used
+    vtObjectUniforms uniforms[vt_peelKindCount];
     GLuint startFramebuffer; ///< the depth that the first layer is compared with
-    GLuint framebuffers[VT_MAX_LAYERS];
+    GLuint framebuffers[2];  ///< by depth buffer
+    int layers;              ///< of a set
     // WebGL forbids reading one layer of an array while another is drawn to, so the depth buffers that are
     // compared are two textures of their own, used in turn. 32 bits of float come back as they were
     // written, so a surface never peels itself.
     vtTexture depthBuffers[2];
-    vtTexture depths;  ///< R16UI array: 0 near to VT_DEPTH_SCALE far, linear; VT_DEPTH_NONE: no surface
+    vtTexture depths; ///< R16UI array, set after set: 0 near to VT_DEPTH_SCALE far, linear; VT_DEPTH_NONE: no
+                      ///< surface
     vtTexture normals; ///< RG32UI array: octahedral normals, interpolated and of the triangle
 } vtPeelPass;
 
-vtResult vtPeelPass_Create(vtPeelPass* pass, const vtGL* gl, vtError* error);
-/// Compiles what vtPeelPass_DrawFarthest needs; does nothing the second time.
-vtResult vtPeelPass_PrepareFarthest(vtPeelPass* pass, const vtGL* gl, vtError* error);
-vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers,
+/// Compiles what that kind needs; does nothing the second time.
+vtResult vtPeelPass_Prepare(vtPeelPass* pass, const vtGL* gl, vtPeelKind kind, vtError* error);
+/// sets: 1, or one for each object of glass.
+vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers, int sets,
                            vtError* error);
-void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene);
-/// Draws the farthest surface alone, into the second layer's place (Wyman 2005's choice of back side).
-void vtPeelPass_DrawFarthest(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene);
+void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene, vtPeelKind kind);
 void vtPeelPass_Destroy(vtPeelPass* pass, const vtGL* gl);
 size_t vtPeelPass_Bytes(const vtPeelPass* pass);

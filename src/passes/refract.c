@@ -5,28 +5,35 @@
 #include "base/error.h"
 #include "shaders.h"
 
-/// The technique's program with a chunk more behind path.glsl.
-static vtResult createVariant(const vtGL* gl, vtTechnique technique, const vtChunk* chunk, GLuint* program,
-                              vtError* error)
+// What no path has gone through.
+static const GLuint background[4] = {0, 0, 0, VT_PATH_BACKGROUND};
+
+/// A program with a chunk more behind octahedral.glsl and path.glsl.
+static vtResult createWith(const vtGL* gl, const vtProgramDef* base, const vtChunk* chunk, GLuint* program,
+                           vtError* error)
 {
-    vtProgramDef def = vtTechnique_Row(technique)->refract;
+    vtProgramDef def = *base;
     memmove(def.fragment + 3, def.fragment + 2, (VT_MAX_CHUNKS - 3) * sizeof *def.fragment);
     def.fragment[2] = chunk;
     return vtCreateProgram(gl, &def, program, error);
 }
 
-vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, bool countReads,
-                               bool branches, vtError* error)
+vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
+                               bool countReads, bool branches, vtError* error)
 {
+    const vtProgramDef* def = &vtTechnique_Row(technique)->refract[variant];
+    GLuint* program = &pass->programs[technique][variant];
+    GLuint* counter = &pass->counters[technique][variant];
+    GLuint* branch = &pass->branchPrograms[technique];
     vtResult result = vtSucceed(error);
-    if (countReads && pass->counters[technique] == 0) {
-        result = createVariant(gl, technique, &vtChunk_count_reads, &pass->counters[technique], error);
+    if (countReads && *counter == 0) {
+        result = createWith(gl, def, &vtChunk_count_reads, counter, error);
     }
-    if (result == vt_ok && branches && pass->branchPrograms[technique] == 0) {
-        result = createVariant(gl, technique, &vtChunk_start_branch, &pass->branchPrograms[technique], error);
+    if (result == vt_ok && branches && *branch == 0) {
+        result = createWith(gl, def, &vtChunk_start_branch, branch, error);
     }
-    if (result == vt_ok && pass->programs[technique] == 0) {
-        result = vtCreateProgram(gl, &vtTechnique_Row(technique)->refract, &pass->programs[technique], error);
+    if (result == vt_ok && *program == 0) {
+        result = vtCreateProgram(gl, def, program, error);
     }
     return result;
 }
@@ -62,35 +69,34 @@ vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, in
     return result;
 }
 
-void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
+static void bindInputs(const vtGL* gl, const vtRefractInputs* inputs)
+{
+    // Units as VT_REFRACT_SAMPLERS in technique.c names them.
+    const vtTexture* units[] = {inputs->surface,       inputs->innerDistances, inputs->layerDepths,
+                                inputs->layerNormals,  inputs->mergedDepths,   inputs->cubeSurfaces,
+                                inputs->cubeTriangles, inputs->intervals,      inputs->triangles,
+                                inputs->cubeColumns,   inputs->objects};
+    for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
+        if (units[unit]->name != 0) {
+            vtTexture_Bind(units[unit], gl, unit);
+        }
+    }
+}
+
+void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
                         const vtRefractInputs* inputs, int set, const vtPathTargets* before)
 {
     const bool onlyGlass = vtTechnique_Row(technique)->surface;
     const vtPathTargets* targets = &pass->targets[set];
     vtBindFramebuffer(gl, (onlyGlass ? pass->glassFramebuffers : pass->framebuffers)[set],
                       targets->paths.width, targets->paths.height);
-    const GLuint* programs = before != NULL       ? pass->branchPrograms
-                             : inputs->countReads ? pass->counters
-                                                  : pass->programs;
-    gl->UseProgram(programs[technique]);
-    // Units as VT_REFRACT_SAMPLERS in technique.c names them.
-    const vtTexture* units[] = {inputs->surface,
-                                inputs->innerDistances,
-                                inputs->layerDepths,
-                                inputs->layerNormals,
-                                inputs->mergedDepths,
-                                inputs->cubeSurfaces,
-                                inputs->cubeTriangles,
-                                inputs->intervals,
-                                inputs->triangles,
-                                inputs->cubeColumns,
-                                inputs->objects,
-                                before != NULL ? &before->lights : NULL,
-                                before != NULL ? &before->asides : NULL};
-    for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
-        if (units[unit] != NULL && units[unit]->name != 0) {
-            vtTexture_Bind(units[unit], gl, unit);
-        }
+    gl->UseProgram(before != NULL       ? pass->branchPrograms[technique]
+                   : inputs->countReads ? pass->counters[technique][variant]
+                                        : pass->programs[technique][variant]);
+    bindInputs(gl, inputs);
+    if (before != NULL) {
+        vtTexture_Bind(&before->lights, gl, 11);
+        vtTexture_Bind(&before->asides, gl, 12);
     }
     if (!onlyGlass) {
         gl->DrawArrays(GL_TRIANGLES, 0, 3);
@@ -98,7 +104,6 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     }
     // The triangle lies farther than every surface and as far as no surface: the depth test, before the
     // shader, leaves out the background.
-    const GLuint background[4] = {0, 0, 0, VT_PATH_BACKGROUND};
     gl->ClearBufferuiv(GL_COLOR, 0, background);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_GREATER);
@@ -109,11 +114,38 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     gl->Disable(GL_DEPTH_TEST);
 }
 
+void vtRefractPass_ClearOrdered(const vtRefractPass* pass, const vtGL* gl, uint32_t count)
+{
+    const vtTexture* paths = &pass->targets[0].paths;
+    vtBindFramebuffer(gl, pass->framebuffers[count % 2], paths->width, paths->height);
+    gl->ClearBufferuiv(GL_COLOR, 0, background);
+}
+
+void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
+                               const vtRefractInputs* inputs, uint32_t object, uint32_t left)
+{
+    const vtPathTargets* before = &pass->targets[1 - left % 2];
+    const GLuint program =
+        (inputs->countReads ? pass->counters : pass->programs)[technique][vt_variantOrdered];
+    vtBindFramebuffer(gl, pass->framebuffers[left % 2], before->paths.width, before->paths.height);
+    gl->ClearBufferuiv(GL_COLOR, 0, background);
+    gl->UseProgram(program);
+    gl->Uniform1i(gl->GetUniformLocation(program, "u_object"), (GLint)object);
+    bindInputs(gl, inputs);
+    vtTexture_Bind(&before->paths, gl, 11); // VT_ORDERED_SAMPLERS in technique.c
+    vtTexture_Bind(&before->ends, gl, 12);
+    vtTexture_Bind(&before->lights, gl, 13);
+    vtTexture_Bind(&before->asides, gl, 14);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl)
 {
     for (int i = 0; i < vt_techniqueCount; ++i) {
-        gl->DeleteProgram(pass->programs[i]);
-        gl->DeleteProgram(pass->counters[i]);
+        for (int variant = 0; variant < vt_variantCount; ++variant) {
+            gl->DeleteProgram(pass->programs[i][variant]);
+            gl->DeleteProgram(pass->counters[i][variant]);
+        }
         gl->DeleteProgram(pass->branchPrograms[i]);
     }
     vtDestroyFramebuffers(gl, pass->framebuffers, VT_PATH_SETS);

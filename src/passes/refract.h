@@ -17,13 +17,15 @@ typedef struct vtPathTargets {
 
 /// Follows every pixel's path through the glass with one technique of the ladder.
 typedef struct vtRefractPass {
-    GLuint programs[vt_techniqueCount];       ///< compiled when first used
-    GLuint counters[vt_techniqueCount];       ///< the same, counting texture reads
+    GLuint programs[vt_techniqueCount][vt_variantCount]; ///< compiled when first used
+    GLuint counters[vt_techniqueCount][vt_variantCount]; ///< the same, counting texture reads
     GLuint branchPrograms[vt_techniqueCount]; ///< the same, from where light left the paths of a set before
     GLuint framebuffers[VT_PATH_SETS];
     GLuint glassFramebuffers[VT_PATH_SETS]; ///< with the surface pass's depth: only pixels that see glass are
                                             ///< drawn
-    vtPathTargets targets[VT_PATH_SETS]; ///< the pixels' own paths; then, in turns, those of their branches
+    /// The pixels' own paths; then, in turns, those of their branches. Objects in order read the paths so far
+    /// from one of the first two and write the other, the last one the first.
+    vtPathTargets targets[VT_PATH_SETS];
 } vtRefractPass;
 
 /// What a technique may read; those it needs (its row's samplers, by these names) must exist.
@@ -42,15 +44,20 @@ typedef struct vtRefractInputs {
     bool countReads;
 } vtRefractInputs;
 
-vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, bool countReads,
-                               bool branches, vtError* error);
+vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
+                               bool countReads, bool branches, vtError* error);
 /// surfaceDepth: of the surface pass, of the same size; NULL for a technique that has no use of it.
 /// sets: of targets, 1 to VT_PATH_SETS.
 vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height, int sets,
                               const vtTexture* surfaceDepth, vtError* error);
 /// Draws into a set of targets. `before`: NULL for the pixels' own paths; else those whose branches are
 /// followed.
-void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
+void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
                         const vtRefractInputs* inputs, int set, const vtPathTargets* before);
+/// One after the other: clears the paths that the first of so many objects goes on from, then each of them,
+/// `left` more to come after it. Two sets of targets are needed.
+void vtRefractPass_ClearOrdered(const vtRefractPass* pass, const vtGL* gl, uint32_t count);
+void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
+                               const vtRefractInputs* inputs, uint32_t object, uint32_t left);
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl);
 size_t vtRefractPass_Bytes(const vtRefractPass* pass);

@@ -69,8 +69,8 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
     return result;
 }
 
-void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, bool distances,
-                        GLuint emptyVertexArray)
+void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, uint32_t first,
+                        uint32_t last, bool distances, GLuint emptyVertexArray)
 {
     const float far = 1.0f;
     const GLuint none[4] = {0};
@@ -82,7 +82,7 @@ void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtScene
         gl->ClearBufferuiv(GL_COLOR, 1, none);
     }
     gl->UseProgram(pass->glassPrograms[distances]);
-    vtSceneBuffer_Draw(scene, gl, &pass->glassUniforms[distances], 0, scene->glassCount);
+    vtSceneBuffer_Draw(scene, gl, &pass->glassUniforms[distances], first, last);
     if (scene->objectCount > scene->glassCount) {
         gl->UseProgram(pass->opaquePrograms[distances]);
         vtTexture_Bind(&scene->triangles, gl, 0);

@@ -20,8 +20,8 @@ typedef struct vtSurfacePass {
 vtResult vtSurfacePass_Create(vtSurfacePass* pass, const vtGL* gl, vtError* error);
 vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, bool distances,
                               vtError* error);
-/// `emptyVertexArray`: one without attributes.
-void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, bool distances,
-                        GLuint emptyVertexArray);
+/// Of glass, objects first to last - 1 alone. `emptyVertexArray`: one without attributes.
+void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, uint32_t first,
+                        uint32_t last, bool distances, GLuint emptyVertexArray);
 void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl);
 size_t vtSurfacePass_Bytes(const vtSurfacePass* pass);
