@@ -1,5 +1,5 @@
-// What a viewer shows: a scene put together of shapes and models, its pictures, its cameras. The calls are like
-// those of viewer.c.
+// What a viewer shows: a scene put together of shapes and models, its pictures, its cameras. The calls are
+// like those of viewer.c.
 #include <emscripten.h>
 #include <stdio.h>
 #include <stdlib.h>
