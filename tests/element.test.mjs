@@ -34,7 +34,7 @@ function pyramid({ padding = 0 } = {}) {
   return glb({ json, bin: Buffer.concat([bin, Buffer.alloc(padding)]) });
 }
 
-/** A cube of glass, one that is opaque and wears a picture, to its left, and a camera that looks at them from the right. @param {Buffer} image a .png */
+/** A cube of glass, one behind it that is opaque and wears a picture, and a camera that looks at them from the right. @param {Buffer} image a .png */
 function textured(image) {
   const { json, bin } = gltf(cube);
   const texcoords = Buffer.from(new Float32Array(cube.positions.flatMap((_, i) => (i % 3 === 2 ? [] : [0.5]))).buffer);
@@ -48,7 +48,7 @@ function textured(image) {
     textures: [{ source: 0 }],
     materials: [{ extensions: { KHR_materials_transmission: { transmissionFactor: 1 } } }, { pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0 } }],
     cameras: [{ type: 'perspective', perspective: { yfov: 0.7, znear: 0.1 } }],
-    nodes: [{ mesh: 0 }, { mesh: 1, translation: [-4, 0, 0] }, { camera: 0, translation: [9, 0, 0], rotation: [0, Math.SQRT1_2, 0, Math.SQRT1_2] }],
+    nodes: [{ mesh: 0 }, { mesh: 1, translation: [0, 0, -3] }, { camera: 0, translation: [9, 0, 0], rotation: [0, Math.SQRT1_2, 0, Math.SQRT1_2] }],
     scenes: [{ nodes: [0, 1, 2] }],
   });
   const [{ attributes, indices }] = json.meshes[0].primitives;

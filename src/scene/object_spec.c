@@ -202,8 +202,8 @@ vtResult vtParseObject(const char* text, const char* option, bool isName, vtObje
         result = parsePart(&whole, part, spec, error);
     }
     if (result == vt_ok && isGiven(spec, vt_keyOpaque) && isGiven(spec, vt_keyGlass)) {
-        result =
-            vtFail(error, vt_errorArgument, "%s '%.200s' is opaque and glass; give one of them", option, text);
+        result = vtFail(error, vt_errorArgument, "%s '%.200s' is opaque and glass; give one of them", option,
+                        text);
     }
     return result;
 }

@@ -38,8 +38,8 @@ typedef struct vtObjectKeyInfo {
 } vtObjectKeyInfo;
 const vtObjectKeyInfo* vtObjectKey_Info(vtObjectKey key);
 
-/// Parses NAME[:key=value,...]. `isName`: the whole text is the name, although it may have a colon. Fails with
-/// a sentence that names the option (as "--object"), key, value and what is allowed.
+/// Parses NAME[:key=value,...]. `isName`: the whole text is the name, although it may have a colon. Fails
+/// with a sentence that names the option (as "--object"), key, value and what is allowed.
 vtResult vtParseObject(const char* text, const char* option, bool isName, vtObjectSpec* spec, vtError* error);
 
 /// Gives the scene's materials and objects what the specification says; the place is vtObjectSpec_Place's.
