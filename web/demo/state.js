@@ -30,7 +30,7 @@ export const scenes = new Map([
   }],
   ['tumbler', {
     title: 'Water in a tumbler', name: 'Tumbler', picture: 'pictures/tumbler.png',
-    objects: [{ name: 'Tumbler', spec: 'tumbler', ior: 1.5 }, { name: 'Water', spec: 'water', ior: 1.333 }, { name: 'Backdrop', spec: 'plane:checker=16,scale=2.5,at=0,0,-3' }],
+    objects: [{ name: 'Tumbler', spec: 'tumbler', ior: 1.5 }, { name: 'Water', spec: 'water', ior: 1.333 }, { name: 'Backdrop', spec: 'plane:checker=24,scale=4,at=0,0,-3' }],
     state: { environment: 'studio', orbit: '10deg 76deg auto' },
   }],
 ]);
