@@ -153,7 +153,7 @@ static vtResult addObject(const vtOptions* options, const char* text, vtScene* s
 {
     vtObjectSpec spec;
     vtScene added = {0};
-    vtResult result = vtParseObject(text, &spec, error);
+    vtResult result = vtParseObject(text, "--object", access(text, R_OK) == 0, &spec, error);
     if (result != vt_ok) {
         return result;
     }

@@ -1,310 +1,48 @@
 #include "objects.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "base/error.h"
-
-typedef struct Key {
-    const char* name;
-    const char* argument;
-    int least, most; // numbers; none: a flag
-    double low, high;
-    double preset; // of a key given without a value
-    const char* help;
-} Key;
 
 static const double anywhere = 1e9;
 
-#define ANYWHERE -1e9, 1e9
-
-static const Key keys[vt_keyCount] = {
-    [vt_keyIor] = {"ior", "N", 1, 1, 0.25, 4, 0, "index of refraction of glass"},
-    [vt_keyAt] = {"at", "X,Y,Z", 3, 3, ANYWHERE, 0, "moved there"},
-    [vt_keyScale] = {"scale", "S|X,Y,Z", 1, 3, ANYWHERE, 0, "scaled, not by 0"},
-    [vt_keyRotate] = {"rotate", "X,Y,Z", 3, 3, ANYWHERE, 0, "degrees, about x, then y, then z"},
-    [vt_keyPriority] = {"priority", "N", 1, 1, -1e6, 1e6, 0,
-                        "where objects of glass overlap, the highest counts (0)"},
-    [vt_keyTint] = {"tint", "R,G,B", 3, 3, 0, 1, 0, "glass: share of light that passes a surface"},
-    [vt_keyAbsorb] = {"absorb", "R,G,B", 3, 3, 0, 1, 0, "glass: what is left of light after the distance"},
-    [vt_keyDistance] = {"distance", "D", 1, 1, 0, 1e6, 0, "of absorb (1); 0 absorbs nothing"},
-    [vt_keyOpaque] = {"opaque", NULL, 0, 0, 0, 0, 0, "not glass"},
-    [vt_keyGlass] = {"glass", NULL, 0, 0, 0, 0, 0, "glass, whatever else is given"},
-    [vt_keyColour] = {"colour", "R,G,B", 3, 3, 0, 1, 0, "of what is opaque; makes it so"},
-    [vt_keyMetallic] = {"metallic", "N", 1, 1, 0, 1, 0, "of what is opaque"},
-    [vt_keyRoughness] = {"roughness", "N", 1, 1, 0, 1, 0, "of what is opaque"},
-    [vt_keyChecker] = {"checker", "N", 0, 1, 0, 1000, 8, "squares along a side; makes it opaque (8)"},
+static const struct {
+    const char* argument;
+    const char* text;
+} helps[vt_keyCount] = {
+    [vt_keyIor] = {"N", "index of refraction of glass"},
+    [vt_keyAt] = {"X,Y,Z", "moved there"},
+    [vt_keyScale] = {"S|X,Y,Z", "scaled, not by 0"},
+    [vt_keyRotate] = {"X,Y,Z", "degrees, about x, then y, then z"},
+    [vt_keyPriority] = {"N", "where objects of glass overlap, the highest counts (0)"},
+    [vt_keyTint] = {"R,G,B", "glass: share of light that passes a surface"},
+    [vt_keyAbsorb] = {"R,G,B", "glass: what is left of light after the distance"},
+    [vt_keyDistance] = {"D", "of absorb (1); 0 absorbs nothing"},
+    [vt_keyOpaque] = {NULL, "not glass"},
+    [vt_keyGlass] = {NULL, "glass, whatever else is given"},
+    [vt_keyColour] = {"R,G,B", "of what is opaque; makes it so"},
+    [vt_keyMetallic] = {"N", "of what is opaque"},
+    [vt_keyRoughness] = {"N", "of what is opaque"},
+    [vt_keyChecker] = {"N", "squares along a side; makes it opaque (8)"},
 };
-
-static bool isGiven(const vtObjectSpec* spec, vtObjectKey key)
-{
-    return (spec->given & 1u << key) != 0;
-}
-
-// ------------------------------------------------------------------------------------------------ parsing
-
-/// "at, colour and opaque"
-static void listKeys(char* text, size_t size)
-{
-    *text = '\0';
-    for (int i = 0; i < vt_keyCount; ++i) {
-        const size_t used = strlen(text);
-        snprintf(text + used, size - used, "%s%s",
-                 i == 0                ? ""
-                 : i < vt_keyCount - 1 ? ", "
-                                       : " and ",
-                 keys[i].name);
-    }
-}
-
-static vtResult failKey(const char* text, const char* key, vtError* error)
-{
-    char names[256];
-    listKeys(names, sizeof names);
-    return vtFail(error, vt_errorArgument,
-                  "--object '%.200s' has the key '%.60s', which is unknown; the keys are %s", text, key,
-                  names);
-}
-
-/// What a key's value must be: "three numbers from 0 to 1".
-static void describeValue(vtObjectKey key, char* text, size_t size)
-{
-    const Key* row = &keys[key];
-    const char* count = row->most == 0            ? "given without a value"
-                        : row->least == row->most ? row->most == 1 ? "a number" : "three numbers"
-                        : row->most == 3          ? "one number or three"
-                                                  : "without a value or a number";
-    if (key == vt_keyPriority) {
-        count = "a whole number";
-    }
-    char range[64] = "";
-    if (row->most > 0) {
-        snprintf(range, sizeof range, " from %g to %g", row->low, row->high);
-    }
-    snprintf(text, size, "%s%s%s", count, range, key == vt_keyScale ? ", none of them 0" : "");
-}
-
-static vtResult failValue(const char* text, vtObjectKey key, const char* value, vtError* error)
-{
-    char allowed[96];
-    describeValue(key, allowed, sizeof allowed);
-    return vtFail(error, vt_errorArgument, "--object '%.200s': %s is '%.100s'; it must be %s", text,
-                  keys[key].name, value, allowed);
-}
-
-static bool readNumber(const char* text, double* number)
-{
-    char* end;
-    *number = strtod(text, &end);
-    return end != text && *end == '\0' && isfinite(*number);
-}
-
-/// Reads the value, numbers between commas; NULL: there was no '='.
-static vtResult storeValue(const char* text, vtObjectKey key, const char* value, vtObjectSpec* spec,
-                           vtError* error)
-{
-    const Key* row = &keys[key];
-    double* numbers = spec->values[key];
-    int count = 0;
-    char copy[256] = "";
-    bool good = value == NULL || strlen(value) < sizeof copy;
-    if (value != NULL && good) {
-        strcpy(copy, value);
-    }
-    for (char *part = copy, *next; good && value != NULL && part != NULL; part = next) {
-        next = strchr(part, ',');
-        if (next != NULL) {
-            *next++ = '\0';
-        }
-        good = count < row->most && readNumber(part, &numbers[count]) && numbers[count] >= row->low &&
-               numbers[count] <= row->high && (key != vt_keyScale || fabs(numbers[count]) >= 1e-9) &&
-               (key != vt_keyPriority || numbers[count] == floor(numbers[count]));
-        ++count;
-    }
-    good = good && count >= row->least && (count == 0 || count == 1 || count == row->most);
-    if (!good) {
-        return failValue(text, key, value != NULL ? value : "", error);
-    }
-    if (count == 0) {
-        numbers[0] = row->preset;
-    }
-    if (count == 1) {
-        numbers[1] = numbers[2] = numbers[0]; // scale
-    }
-    spec->given |= 1u << key;
-    return vt_ok;
-}
-
-/// Where the keys begin, behind the name's colon; NULL: there are none. A file may have a colon in its name.
-static const char* findKeys(const char* text)
-{
-    const char* colon = strrchr(text, ':');
-    return colon == NULL || strchr(colon, '/') != NULL || access(text, R_OK) == 0 ? NULL : colon + 1;
-}
-
-static vtResult parsePart(const char* text, char* part, vtObjectSpec* spec, vtError* error)
-{
-    char* value = strchr(part, '=');
-    if (value != NULL) {
-        *value++ = '\0';
-    }
-    int key = 0;
-    while (key < vt_keyCount && strcmp(keys[key].name, part) != 0) {
-        ++key;
-    }
-    return key == vt_keyCount ? failKey(text, part, error)
-                              : storeValue(text, (vtObjectKey)key, value, spec, error);
-}
-
-/// Cuts the keys into parts: at a comma, unless a number follows that goes on with a value.
-static char* cutPart(char* part)
-{
-    bool hasValue = false;
-    for (char* end = part; *end != '\0'; ++end) {
-        hasValue = hasValue || *end == '=';
-        if (*end != ',') {
-            continue;
-        }
-        char next[64] = "";
-        double number;
-        const size_t length = strcspn(end + 1, ",");
-        snprintf(next, sizeof next, "%.*s", length < sizeof next ? (int)length : 0, end + 1);
-        if (!hasValue || !readNumber(next, &number)) {
-            *end = '\0';
-            return end + 1;
-        }
-    }
-    return NULL;
-}
-
-vtResult vtParseObject(const char* text, vtObjectSpec* spec, vtError* error)
-{
-    *spec = (vtObjectSpec){0};
-    const char* tail = findKeys(text);
-    const size_t length = tail != NULL ? (size_t)(tail - text) - 1 : strlen(text);
-    char parts[1024] = "";
-    if (length == 0 || length >= sizeof spec->name || (tail != NULL && strlen(tail) >= sizeof parts)) {
-        return vtFail(
-            error, vt_errorArgument,
-            "--object is '%.200s'; it must be NAME or NAME:key=value,key=value, NAME a built-in shape or a "
-            "model file",
-            text);
-    }
-    memcpy(spec->name, text, length);
-    if (tail != NULL) {
-        strcpy(parts, tail);
-    }
-    vtResult result = vt_ok;
-    for (char *part = tail != NULL ? parts : NULL, *next; part != NULL && result == vt_ok; part = next) {
-        next = cutPart(part);
-        result = parsePart(text, part, spec, error);
-    }
-    if (result == vt_ok && isGiven(spec, vt_keyOpaque) && isGiven(spec, vt_keyGlass)) {
-        result =
-            vtFail(error, vt_errorArgument, "--object '%.200s' is opaque and glass; give one of them", text);
-    }
-    return result;
-}
-
-// ------------------------------------------------------------------------------------------------- making
-
-static void copyColor(const vtObjectSpec* spec, vtObjectKey key, vtVec3* color)
-{
-    if (isGiven(spec, key)) {
-        const double* v = spec->values[key];
-        *color = (vtVec3){(float)v[0], (float)v[1], (float)v[2]};
-    }
-}
-
-static void copyNumber(const vtObjectSpec* spec, vtObjectKey key, float* number)
-{
-    if (isGiven(spec, key)) {
-        *number = (float)spec->values[key][0];
-    }
-}
-
-static void applyToMaterial(const vtObjectSpec* spec, vtMaterial* material)
-{
-    const bool opaque =
-        isGiven(spec, vt_keyOpaque) || isGiven(spec, vt_keyColour) || isGiven(spec, vt_keyChecker);
-    material->opaque = (material->opaque || opaque) && !isGiven(spec, vt_keyGlass);
-    copyNumber(spec, vt_keyIor, &material->ior);
-    copyColor(spec, vt_keyTint, &material->tint);
-    copyColor(spec, vt_keyAbsorb, &material->attenuationColor);
-    if (isGiven(spec, vt_keyAbsorb) && !(material->attenuationDistance > 0.0f)) {
-        material->attenuationDistance = 1.0f;
-    }
-    copyNumber(spec, vt_keyDistance, &material->attenuationDistance);
-    copyColor(spec, vt_keyColour, &material->baseColor);
-    copyNumber(spec, vt_keyMetallic, &material->metallic);
-    copyNumber(spec, vt_keyRoughness, &material->roughness);
-    copyNumber(spec, vt_keyChecker, &material->checker);
-    // What is given takes the place of the file's pictures.
-    if (isGiven(spec, vt_keyColour)) {
-        material->baseColorImage = -1;
-    }
-    if (isGiven(spec, vt_keyMetallic) || isGiven(spec, vt_keyRoughness)) {
-        material->metallicRoughnessImage = -1;
-    }
-}
-
-void vtObjectSpec_Apply(const vtObjectSpec* spec, vtScene* scene)
-{
-    for (uint32_t i = 0; i < scene->materialCount; ++i) {
-        applyToMaterial(spec, &scene->materials[i]);
-    }
-    for (uint32_t i = 0; i < scene->objectCount && isGiven(spec, vt_keyPriority); ++i) {
-        scene->objects[i].priority = (int)spec->values[vt_keyPriority][0];
-    }
-}
-
-vtTransform vtObjectSpec_Place(const vtObjectSpec* spec)
-{
-    const double radian = 3.14159265358979323846 / 180.0;
-    const double* angles = spec->values[vt_keyRotate]; // 0 where not given, as the place
-    double s[3], c[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        s[axis] = sin(angles[axis] * radian);
-        c[axis] = cos(angles[axis] * radian);
-    }
-    // The product of the turns about z, y and x, the last one next to the vector.
-    const double turn[3][3] = {
-        {c[2] * c[1], c[2] * s[1] * s[0] - s[2] * c[0], c[2] * s[1] * c[0] + s[2] * s[0]},
-        {s[2] * c[1], s[2] * s[1] * s[0] + c[2] * c[0], s[2] * s[1] * c[0] - c[2] * s[0]},
-        {-s[1], c[1] * s[0], c[1] * c[0]},
-    };
-    vtTransform place;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            const double scale = isGiven(spec, vt_keyScale) ? spec->values[vt_keyScale][column] : 1.0;
-            place.rows[row][column] = (float)(turn[row][column] * scale);
-        }
-        place.rows[row][3] = (float)spec->values[vt_keyAt][row];
-    }
-    return place;
-}
 
 void vtPrintObjectHelp(void)
 {
     printf("\n--object NAME[:key=value,key=value,...], NAME a built-in shape or a model file. Keys:\n");
     for (int i = 0; i < vt_keyCount; ++i) {
-        const Key* key = &keys[i];
+        const vtObjectKeyInfo* key = vtObjectKey_Info((vtObjectKey)i);
+        const char* argument = helps[i].argument;
         char left[32], range[48] = "";
         snprintf(left, sizeof left, "%s%s%s", key->name,
-                 key->argument == NULL ? ""
-                 : key->least == 0     ? "|"
-                                       : "=",
-                 key->argument == NULL ? "" : key->argument);
+                 argument == NULL  ? ""
+                 : key->least == 0 ? "|"
+                                   : "=",
+                 argument == NULL ? "" : argument);
         if (key->least == 0 && key->most > 0) {
-            snprintf(left, sizeof left, "%s, %s=%s", key->name, key->name, key->argument);
+            snprintf(left, sizeof left, "%s, %s=%s", key->name, key->name, argument);
         }
         if (key->most > 0 && key->high < anywhere) {
             snprintf(range, sizeof range, ", %g to %g", key->low, key->high);
         }
-        printf("  %-20s %s%s\n", left, key->help, range);
+        printf("  %-20s %s%s\n", left, helps[i].text, range);
     }
     printf("A model's keys hold for all its materials. `plane` is opaque unless it is glass.\n"
            "  a knot behind a cube:\n"

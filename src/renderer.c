@@ -577,6 +577,7 @@ static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
         layersToo = vtTechnique_Row(frame->technique)->layerSpace == vt_layersOfPicture;
         sampleEnd = i + 1;
     }
+    uploadSample(renderer, 0, accumulate->count); // should there have been no sample left to draw
     vtAccumulatePass_Show(accumulate, gl, frame->framebuffer);
     renderer->sampleEnd = sampleEnd;
     return vt_ok;

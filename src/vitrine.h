@@ -409,13 +409,16 @@ typedef struct vtPath {
     int eventCount; ///< 0: the eye ray misses the glass
     vtPathEvent events[VT_MAX_EVENTS];
     vtVec3 direction; ///< unit, after the last event
-    bool exited;      ///< it has left the glass for good
+    bool exited;      ///< it has left all glass for good
+    bool opaque;      ///< it ends on something opaque, at `end`
+    vtVec3 end;
 } vtPath;
 
 /// The exact path of the eye ray through a point of the picture, x from the left and y from the top in
 /// pixels (pixel centres at .5), traced on the CPU: what the techniques imitate. frame gives view, ior, size
-/// and maxEvents. Some milliseconds: it builds its search structure each time.
-vtResult vtTracePath(const vtMesh* mesh, const vtFrame* frame, float x, float y, vtPath* path,
+/// and maxEvents. Only where indices differ there is an event; where light could pass it does. Some
+/// milliseconds: it builds its search structures each time.
+vtResult vtTracePath(const vtScene* scene, const vtFrame* frame, float x, float y, vtPath* path,
                      vtError* error);
 
 typedef void (*vtProc)(void);

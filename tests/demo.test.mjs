@@ -172,6 +172,31 @@ describe('the demo page', { skip }, () => {
     }
   });
 
+  test('scenes have an index for each object', async (t) => {
+    const page = await open(t, 'quality=high'); // the knot behind needs its steps
+    for (const [title, id, names] of [['Knot behind a cube', 'behind', ['Cube', 'Knot']], ['Water in a tumbler', 'tumbler', ['Tumbler', 'Water']]]) {
+      const knot = await seen(page);
+      await page.getByRole('button', { name: title }).click();
+      const scene = await seen(page);
+      assert.ok(difference(knot, scene) > 10, `${title} is seen`);
+      await page.screenshot({ path: join(screenshots, `demo-${id}.png`) });
+      assert.deepEqual(await page.locator('#objects label').allTextContents(), names);
+      assert.ok(await page.isHidden('#ior'), 'no index for all');
+      await page.getByLabel(names[0], { exact: true }).fill('1.1');
+      assert.equal(await page.textContent('#object-0-value'), '1.100');
+      const changed = await seen(page);
+      assert.ok(difference(scene, changed) > 3, `${names[0]} of another index: ${difference(scene, changed)} % differ`);
+      const link = await query(page);
+      assert.deepEqual([link.model, link.iors.split(',')[0]], [id, '1.1']);
+      const again = await open(t, String(new URLSearchParams(link)));
+      assert.ok(difference(changed, await seen(again)) < 0.5, 'a link shows the same');
+      await page.getByRole('button', { name: 'Knot', exact: true }).click();
+      assert.equal((await query(page)).iors, undefined);
+      assert.ok(await page.isVisible('#ior'));
+    }
+    await page.mouse.click(190, 160);
+  });
+
   test('presets and own numbers', async (t) => {
     const page = await open(t, 'quality=high');
     const show = (...expected) => page.waitForFunction((texts) => {
@@ -323,7 +348,7 @@ describe('the demo page', { skip }, () => {
     await page.screenshot({ path: join(screenshots, 'demo-error.png') });
     await page.getByRole('button', { name: 'Dismiss' }).click();
     assert.ok(difference(first, await seen(page)) < 0.5, 'the picture stays');
-    assert.equal(await page.getByRole('button', { name: 'Knot' }).getAttribute('aria-pressed'), 'true');
+    assert.equal(await page.getByRole('button', { name: 'Knot', exact: true }).getAttribute('aria-pressed'), 'true');
 
     await drop(page, 'tetrahedron.glb', glb(gltf(tetrahedron)));
     await page.waitForSelector('[data-url^="blob:"][aria-pressed=true]');

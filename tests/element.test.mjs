@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { glb, gltf, tetrahedron } from '../scripts/glb.mjs';
+import { cube, glb, gltf, tetrahedron } from '../scripts/glb.mjs';
 import { answerWithFile, chromiumPath, launch, listen, skipWithout } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -34,6 +34,36 @@ function pyramid({ padding = 0 } = {}) {
   return glb({ json, bin: Buffer.concat([bin, Buffer.alloc(padding)]) });
 }
 
+/** A cube of glass, one behind it that is opaque and wears a picture, and a camera that looks at them from the right. @param {Buffer} image a .png */
+function textured(image) {
+  const { json, bin } = gltf(cube);
+  const texcoords = Buffer.from(new Float32Array(cube.positions.flatMap((_, i) => (i % 3 === 2 ? [] : [0.5]))).buffer);
+  json.bufferViews.push({ buffer: 0, byteOffset: bin.length, byteLength: texcoords.length },
+    { buffer: 0, byteOffset: bin.length + texcoords.length, byteLength: image.length });
+  json.buffers[0].byteLength += texcoords.length + image.length;
+  json.accessors.push({ bufferView: 2, componentType: 5126, count: texcoords.length / 8, type: 'VEC2' });
+  Object.assign(json, {
+    extensionsUsed: ['KHR_materials_transmission'],
+    images: [{ bufferView: 3, mimeType: 'image/png' }],
+    textures: [{ source: 0 }],
+    materials: [{ extensions: { KHR_materials_transmission: { transmissionFactor: 1 } } }, { pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0 } }],
+    cameras: [{ type: 'perspective', perspective: { yfov: 0.7, znear: 0.1 } }],
+    nodes: [{ mesh: 0 }, { mesh: 1, translation: [0, 0, -3] }, { camera: 0, translation: [9, 0, 0], rotation: [0, Math.SQRT1_2, 0, Math.SQRT1_2] }],
+    scenes: [{ nodes: [0, 1, 2] }],
+  });
+  const [{ attributes, indices }] = json.meshes[0].primitives;
+  json.meshes[0].primitives[0].material = 0;
+  json.meshes.push({ primitives: [{ attributes: { ...attributes, TEXCOORD_0: 2 }, indices, material: 1 }] });
+  return glb({ json, bin: Buffer.concat([bin, texcoords, image]) });
+}
+
+/** A .png of one colour. */
+function plain(...color) {
+  const png = new PNG({ width: 8, height: 8 });
+  for (let i = 0; i < png.data.length; i += 4) png.data.set(color, i);
+  return PNG.sync.write(png);
+}
+
 /** An environment of all colours and opacities. */
 function panorama() {
   const png = new PNG({ width: 64, height: 32 });
@@ -59,6 +89,10 @@ function startServer(requests, pages) {
       send(pyramid(), 'model/gltf-binary');
     } else if (pathname === '/broken.glb') {
       send(pyramid().subarray(0, 100), 'model/gltf-binary');
+    } else if (pathname === '/red.glb') {
+      send(textured(plain(250, 10, 20, 255)), 'model/gltf-binary');
+    } else if (pathname === '/unreadable.glb') {
+      send(textured(plain(250, 10, 20, 255).fill(7, 16)), 'model/gltf-binary');
     } else if (pathname === '/slow.glb') {
       const bytes = pyramid({ padding: 400000 });
       response.writeHead(200, { 'content-type': 'model/gltf-binary', 'content-length': bytes.length });
@@ -72,9 +106,7 @@ function startServer(requests, pages) {
     } else if (pathname === '/panorama.hdr') {
       send(radiance, 'image/vnd.radiance');
     } else if (pathname === '/poster.png') {
-      const png = new PNG({ width: 8, height: 8 });
-      for (let i = 0; i < png.data.length; i += 4) png.data.set([250, 10, 200, 255], i);
-      send(PNG.sync.write(png), 'image/png');
+      send(plain(250, 10, 200, 255), 'image/png');
     } else {
       answerWithFile(site, pathname, response);
     }
@@ -431,6 +463,103 @@ describe('the element', { skip }, () => {
     assert.deepEqual(await page.evaluate(() => [a.ior, a.layers]), [4, 3]);
   });
 
+  test('several objects, each of its own index', async (t) => {
+    requests.length = 0;
+    const page = await open(t, '<vitrine-viewer id="a" skybox-image environment-image="checker" objects="sphere:at=-1.2,0,0, ior = 1.2; sphere:at=1.2,0,0;"></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>', { allowed: /404/ });
+    const show = async (changes) => {
+      await page.evaluate((values) => Object.assign(a, values), changes);
+      await page.waitForFunction(() => a.loaded);
+      await settle(page);
+      assert.equal(await message(page), '');
+      return picture(page);
+    };
+    const part = (image, from, to) => {
+      const half = new PNG({ width: to - from, height: image.height });
+      PNG.bitblt(image, half, from, 0, to - from, image.height, 0, 0);
+      return half;
+    };
+    const first = await picture(page);
+    assert.ok(difference(first, nativePicture('--object', 'sphere:at=-1.2,0,0,ior=1.2', '--object', 'sphere:at=1.2,0,0', '-e', 'checker')) < 0.5, 'as the native program');
+    const other = await show({ objects: 'sphere:at=-1.2,0,0,ior=1.2; sphere:at=1.2,0,0,ior=1.9' });
+    assert.ok(difference(part(first, 0, 120), part(other, 0, 120)) < 0.5, 'the left one is as before');
+    assert.ok(difference(part(first, 136, 256), part(other, 136, 256)) > 5, 'the right one is not');
+    assert.ok(difference(other, await show({ ior: 1.9 })) > 5, 'ior is for all');
+    const plainer = await show({ ior: null, fresnel: 'off' });
+    assert.ok(meanError(other, plainer) > 0.5, 'without Fresnel reflection');
+
+    // The path goes through both, and ends on what is opaque.
+    const path = await page.evaluate(async () => {
+      Object.assign(a, { objects: 'sphere\nsphere:at=0,0,-3\nplane:at=0,0,-6', cameraOrbit: '0deg 90deg auto', cameraTarget: '0m 0m 0m' });
+      await new Promise((done) => a.addEventListener('load', done, { once: true }));
+      const { left, top } = a.getBoundingClientRect();
+      return a.pathAt(left + 129, top + 127);
+    });
+    assert.deepEqual([path.events.length, path.points.length, path.exited], [4, 5, false]);
+    assert.ok(Math.abs(path.points[4][2] + 6) < 1e-3);
+
+    const files = await show({ src: 'torus', objects: '/good.glb:at=2,0,0; /good.glb:at=-2,0,0,scale=0.5; water' });
+    assert.deepEqual(requests.filter((one) => one.endsWith('.glb')), ['/good.glb'], 'fetched once');
+    const cases = {
+      'sphere:at=1': /objects 'sphere:at=1': at is '1'; it must be three numbers/,
+      'sphere:color=1,0,0': /has the key 'color', which is unknown; the keys are ior, at/,
+      teapot: /teapot: neither a built-in name nor a file/,
+      '/missing.glb:ior=2': /missing\.glb: the server answered 404/,
+      'sphere:scale=0': /scale is '0'/,
+    };
+    for (const [objects, sentence] of Object.entries(cases)) {
+      const count = (await events(page, 'error')).length;
+      await page.evaluate((text) => (a.objects = text), objects);
+      await page.waitForFunction((least) => window.events.filter(({ event }) => event === 'error').length > least, count);
+      assert.match(await message(page), sentence);
+      assert.equal(difference(files, await picture(page)), 0, 'the picture stays');
+    }
+    await show({ src: null, objects: 'cube' });
+    await page.evaluate(() => Object.assign(a, { cameraIndex: 2 }));
+    await settle(page);
+    assert.match(await message(page), /camera-index is 2, but the model has no camera/);
+    await page.evaluate(() => Object.assign(a, { cameraIndex: null }));
+    await settle(page);
+    assert.equal(await message(page), '');
+  });
+
+  test('pictures and cameras of a model', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="/red.glb"></vitrine-viewer>');
+    const facts = await page.evaluate(async () => {
+      const { Viewer, loadCore } = await import('/element/core.js');
+      const viewer = new Viewer(await loadCore(), document.createElement('canvas'), () => {});
+      const contents = new Uint8Array(await (await fetch('/red.glb')).arrayBuffer());
+      viewer.begin([{ name: 'red.glb', contents, spec: '' }]);
+      const { length } = viewer.images;
+      viewer.destroy();
+      return length;
+    });
+    if (facts === 0) {
+      t.skip('the loader gives no pictures');
+      return;
+    }
+    const reds = ({ data }) => data.filter((value, i) => i % 4 === 0 && value > 60 && value > 3 * data[i + 1] && value > 3 * data[i + 2]).length;
+    const first = await picture(page);
+    assert.ok(reds(first) > 300, `${reds(first)} pixels are red`);
+    await page.evaluate(() => (a.cameraIndex = 0));
+    await settle(page);
+    const { theta, phi } = await page.evaluate(() => ({ ...a.getCameraOrbit() }));
+    assert.ok(Math.abs(theta - Math.PI / 2) < 1e-3 && Math.abs(phi - Math.PI / 2) < 1e-3, 'the camera of the file');
+    assert.ok(difference(first, await picture(page)) > 5);
+    await page.evaluate(() => (a.cameraIndex = 1));
+    await settle(page);
+    assert.match(await message(page), /camera-index is 1; the model has the cameras 0 to 0/);
+    await page.evaluate(() => Object.assign(a, { cameraIndex: null, src: '/unreadable.glb' }));
+    await page.waitForFunction(() => a.loaded);
+    await settle(page);
+    assert.match(await message(page), /^unreadable\.glb: image 0 is no picture that this browser can decode; white is shown in its place$/);
+    assert.equal(reds(await picture(page)), 0);
+    await page.evaluate(() => (a.src = '/red.glb'));
+    await page.waitForFunction(() => a.loaded);
+    await settle(page);
+    assert.equal(await message(page), '');
+    assert.equal(difference(first, await picture(page)), 0);
+  });
+
   test('an outdated load is dropped', async (t) => {
     const page = await open(t, '<vitrine-viewer id="a" src="/slow.glb"></vitrine-viewer>', { waits: false });
     await page.waitForFunction(() => window.events.some(({ totalProgress }) => totalProgress > 0.1));
@@ -685,7 +814,7 @@ describe('the element', { skip }, () => {
       Object.assign(a, { ior: null, cameraControls: true, maxEvents: 3 });
       return [before, a.ior, a.hasAttribute('ior'), a.getAttribute('camera-controls'), a.getAttribute('max-events'), a.constructor.observedAttributes.length];
     });
-    assert.deepEqual(seen, [[1.4, 'exact', false, null], null, false, '', '3', 25]);
+    assert.deepEqual(seen, [[1.4, 'exact', false, null], null, false, '', '3', 28]);
     const blob = await page.evaluate(async () => {
       const { type, size } = await a.toBlob({ mimeType: 'image/jpeg' });
       return [type, size > 1000];

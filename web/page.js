@@ -13,7 +13,7 @@ const presetMedium = 1; // of vtPreset
 const largestScale = 2; // canvas pixels per CSS pixel
 
 const state = { model: 'knot', environment: 'studio' };
-let settings = { technique: 'exact', layers: 0, steps: 0 }; // 0: as the preset says
+let settings = { technique: 'exact', layers: 0, steps: 0, ior: 0 }; // 0: as the preset or the model says
 let core; // the module
 let page, viewer; // handles in it
 let stopped = false; // no context any more
@@ -83,10 +83,10 @@ function keepInAddress() {
 // ------------------------------------------------------------------------------------------------ settings
 
 function setGlass(values) {
-  const { ior, output } = { ...info(), ...values };
+  const { output } = { ...info(), ...values };
   const wanted = Object.fromEntries(Object.entries(settings).map(([key, value]) => [key, values[key] ?? value]));
-  const { technique, layers, steps } = wanted;
-  const done = attempt('SetGlass', technique, ior, presetMedium, layers, steps, 0, output, 0, 0, 0, 1, 0);
+  const { technique, layers, steps, ior } = wanted;
+  const done = attempt('SetGlass', technique, ior, presetMedium, layers, steps, 0, output, 0, 0, 0, 1, 0, 1);
   if (done) settings = wanted;
   showState();
   return done;
@@ -117,7 +117,10 @@ async function openFile(file, kind) {
     showError(`${file.name}: cannot be read: ${reason.message}`);
   }
   if (!done) return;
-  if (kind === 'model') resetView();
+  if (kind === 'model') {
+    setGlass({ ior: 0 }); // the file's
+    resetView();
+  }
   const select = element(kind);
   select.querySelector('.file')?.remove();
   select.append(new Option(file.name, ''));

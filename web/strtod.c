@@ -3,11 +3,11 @@
 #include <emscripten.h>
 #include <string.h>
 
-EM_JS(double, vtReadNumber, (const char* text), { return parseFloat(UTF8ToString(text)); })
+EM_JS(double, vtReadNumber, (const char* text), { return Number(UTF8ToString(text)); })
 
 double __wrap_strtod(const char* text, char** end);
 
-/// `text` is a number of JSON, checked before.
+/// All of `text` is one number, of JSON or an object's line; else NaN.
 double __wrap_strtod(const char* text, char** end)
 {
     *end = (char*)text + strspn(text, "+-.0123456789Ee");

@@ -34,7 +34,8 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Destroy(vtViewer* viewer)
 {
     if (viewer != NULL) {
         vtDestroyRenderer(viewer->renderer);
-        vtDestroyMesh(&viewer->mesh);
+        vtDestroyScene(&viewer->scene);
+        vtDestroyScene(&viewer->next);
         free(viewer->image);
         free(viewer);
     }
@@ -44,55 +45,6 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Destroy(vtViewer* viewer)
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Error(const vtViewer* viewer)
 {
     return viewer->error.message;
-}
-
-/// Looks at the whole object from the default direction, for a picture of that aspect.
-EMSCRIPTEN_KEEPALIVE void vtViewer_ResetView(vtViewer* viewer, float aspect)
-{
-    viewer->frame.view = vtFrameMesh(&viewer->mesh, viewer->frame.view.fovY, aspect);
-    viewer->changed = true;
-}
-
-/// Takes the mesh over; where it cannot be uploaded, the one before stays.
-static vtResult showMesh(vtViewer* viewer, vtMesh* mesh)
-{
-    vtResult result = vtRenderer_SetMesh(viewer->renderer, mesh, &viewer->error);
-    if (result != vt_ok) {
-        vtDestroyMesh(mesh);
-        return result;
-    }
-    vtDestroyMesh(&viewer->mesh);
-    viewer->mesh = *mesh;
-    viewer->changed = true;
-    return vt_ok;
-}
-
-/// A built-in shape by name.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetShape(vtViewer* viewer, const char* name)
-{
-    vtMesh mesh;
-    vtResult result = vtCreateShape(name, &mesh, &viewer->error);
-    return sentence(viewer, result == vt_ok ? showMesh(viewer, &mesh) : result);
-}
-
-/// The contents of a .glb or self-contained .gltf; its index of refraction, if it has one, becomes the
-/// viewer's.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenModel(vtViewer* viewer, uint8_t* bytes, size_t size,
-                                                    const char* name)
-{
-    vtScene scene;
-    vtModelDef def = {.bytes = bytes, .size = size, .name = name};
-    vtResult result = vtLoadScene(&def, &scene, &viewer->error);
-    free(bytes);
-    if (result == vt_ok) {
-        const float ior = scene.materials[scene.objects[0].material].ior;
-        vtMesh mesh = scene.meshes[0];
-        scene.meshes[0] = (vtMesh){0};
-        vtDestroyScene(&scene);
-        result = showMesh(viewer, &mesh);
-        viewer->frame.ior = result == vt_ok && ior != vtDefaultMaterial().ior ? ior : viewer->frame.ior;
-    }
-    return sentence(viewer, result);
 }
 
 static vtResult showEnvironment(vtViewer* viewer, vtEnvironment* environment)
@@ -135,11 +87,11 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenPicture(vtViewer* viewer, uint8_t*
 static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
 {
     vtResult result = vtValidateFrame(frame, &viewer->error);
-    if (result == vt_ok && frame->technique == vt_techniqueWyman && viewer->mesh.indexCount > 0 &&
-        viewer->mesh.innerDistances == NULL) {
-        result = vtComputeInnerDistances(&viewer->mesh, &viewer->error);
-        if (result == vt_ok) {
-            result = vtRenderer_SetMesh(viewer->renderer, &viewer->mesh, &viewer->error);
+    if (result == vt_ok && frame->technique == vt_techniqueWyman) {
+        bool measured;
+        result = vtMeasureInnerDistances(&viewer->scene, &measured, &viewer->error);
+        if (result == vt_ok && measured) {
+            result = vtRenderer_SetScene(viewer->renderer, &viewer->scene, &viewer->error);
         }
     }
     if (result == vt_ok) {
@@ -168,13 +120,13 @@ static void lessen(vtFrame* frame)
     frame->maxEvents = least(full.maxEvents, low.maxEvents);
 }
 
-/// Technique by its id and the settings of the glass, ranges as in vtFrame, 0 where the preset decides;
-/// `output` is a vtOutput. A layer beyond those there are is the last one. With `lessened` it is drawn with
-/// less.
+/// Technique by its id and the settings of the glass, ranges as in vtFrame, 0 where the preset or the object
+/// decides; `output` is a vtOutput. A layer beyond those there are is the last one. With `lessened` it is
+/// drawn with less.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, float ior,
                                                    int preset, int layers, int steps, int maxEvents,
                                                    int output, int layer, float exposure, bool transparent,
-                                                   int samples, bool lessened)
+                                                   int samples, bool lessened, bool fresnel)
 {
     vtFrame frame = viewer->frame;
     frame.technique = vtFindTechnique(technique);
@@ -183,6 +135,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char*
         return viewer->error.message;
     }
     frame.ior = ior;
+    frame.fresnel = fresnel;
     frame.preset = (vtPreset)preset;
     frame.layers = layers;
     frame.steps = steps;
@@ -222,7 +175,9 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Orbit(vtViewer* viewer, float yaw, float pitc
 /// Moves the eye towards (factor < 1) or away from the object, within a tenth and ten times its size.
 EMSCRIPTEN_KEEPALIVE void vtViewer_Zoom(vtViewer* viewer, float factor)
 {
-    float size = vtLength(vtSub(viewer->mesh.boundsMax, viewer->mesh.boundsMin));
+    vtVec3 low, high;
+    vtScene_Bounds(&viewer->scene, &low, &high);
+    float size = vtLength(vtSub(high, low));
     float distance = vtLength(vtSub(viewer->frame.view.eye, viewer->frame.view.target));
     float wanted = vtClamp(distance * factor, 0.1f * size, 10.0f * size);
     viewer->frame.view = vtView_Zoom(viewer->frame.view, wanted / distance);
@@ -288,12 +243,13 @@ EMSCRIPTEN_KEEPALIVE const uint8_t* vtViewer_Image(vtViewer* viewer, int width, 
     return drawn ? image : NULL;
 }
 
-/// The exact path through a point of the canvas (pixels, from its top left), as JSON: its events and its last
-/// direction; NULL on failure, see vtViewer_Error. Valid until the next call.
+/// The exact path through a point of the canvas (pixels, from its top left), as JSON: its events, its last
+/// direction and, on something opaque, its end; NULL on failure, see vtViewer_Error. Valid until the next
+/// call.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Path(vtViewer* viewer, float x, float y)
 {
     vtPath path;
-    if (vtTracePath(&viewer->mesh, &viewer->frame, x, y, &path, &viewer->error) != vt_ok) {
+    if (vtTracePath(&viewer->scene, &viewer->frame, x, y, &path, &viewer->error) != vt_ok) {
         return NULL;
     }
     size_t used = 0, size = sizeof viewer->path;
@@ -309,7 +265,12 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Path(vtViewer* viewer, float x, float 
                                  (double)event->position.z, (double)event->incoming, (double)event->outgoing,
                                  event->reflected ? "reflection" : "refraction");
     }
-    snprintf(text + used, size - used, "]}");
+    used += (size_t)snprintf(text + used, size - used, "]");
+    if (path.opaque) {
+        used += (size_t)snprintf(text + used, size - used, ",\"end\":[%.5g,%.5g,%.5g]", (double)path.end.x,
+                                 (double)path.end.y, (double)path.end.z);
+    }
+    snprintf(text + used, size - used, "}");
     return text;
 }
 
@@ -320,14 +281,17 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Info(vtViewer* viewer)
     const vtView* view = &frame.view;
     const vtRendererInfo info = vtRenderer_Info(viewer->renderer);
     const bool peels = vtFrame_LayerCount(&frame) > 0;
+    const vtSceneFacts facts = vtViewer_SceneFacts(viewer);
     snprintf(
         viewer->info, sizeof viewer->info,
-        "{\"triangles\":%u,\"openEdges\":%u,\"layerWidth\":%d,\"layerHeight\":%d,\"drawCount\":%d,"
+        "{\"triangles\":%u,\"openEdges\":%u,\"objects\":%u,\"glassObjects\":%u,\"cameras\":%u,\"images\":%u,"
+        "\"layerWidth\":%d,\"layerHeight\":%d,\"drawCount\":%d,"
         "\"technique\":\"%s\",\"preset\":\"%s\",\"ior\":%.6g,\"layers\":%d,\"steps\":%d,\"maxEvents\":%d,"
         "\"output\":%d,\"eye\":[%.6g,%.6g,%.6g],\"target\":[%.6g,%.6g,%.6g],\"fov\":%.6g}",
-        viewer->mesh.indexCount / 3, viewer->mesh.openEdgeCount, peels ? info.layerWidth : frame.cubeSize,
+        facts.triangles, facts.openEdges, viewer->scene.objectCount, facts.glassCount,
+        viewer->scene.cameraCount, viewer->scene.imageCount, peels ? info.layerWidth : frame.cubeSize,
         peels ? info.layerHeight : frame.cubeSize, viewer->drawCount, vtTechnique_Info(frame.technique)->id,
-        vtPresetName((int)frame.preset), (double)frame.ior, frame.layers, frame.steps, frame.maxEvents,
+        vtPresetName((int)frame.preset), (double)facts.ior, frame.layers, frame.steps, frame.maxEvents,
         (int)frame.output, (double)view->eye.x, (double)view->eye.y, (double)view->eye.z,
         (double)view->target.x, (double)view->target.y, (double)view->target.z, (double)view->fovY);
     return viewer->info;

@@ -5,15 +5,16 @@
 
 typedef struct vtViewer {
     vtRenderer* renderer;
-    vtMesh mesh;   ///< on the GPU as well; kept for its numbers
+    vtScene scene; ///< on the GPU as well; kept for its numbers
+    vtScene next;  ///< being put together
     vtFrame frame; ///< of the canvas; each tick draws one of its samples
     int sample;    ///< the next one
     bool changed;  ///< since the frame drawn last
     int drawCount;
     uint8_t* image; ///< the last one of vtViewer_Image
     vtError error;
-    char info[512];
-    char path[128 + 128 * VT_MAX_EVENTS]; ///< the last one of vtViewer_Path
+    char info[640];
+    char path[192 + 128 * VT_MAX_EVENTS]; ///< the last one of vtViewer_Path
 } vtViewer;
 
 /// Compiles the shaders in the current context; NULL where memory is out. See vtViewer_Error.
@@ -23,3 +24,13 @@ void vtViewer_Destroy(vtViewer* viewer);
 /// Draws the canvas if anything changed, else adds the next sample until all are there. 1: drawn, 0: nothing
 /// to do, -1: failed, see vtViewer_Error.
 int vtViewer_Tick(vtViewer* viewer);
+
+/// Of the scene's glass.
+typedef struct vtSceneFacts {
+    uint32_t triangles, openEdges, glassCount;
+    float ior; ///< in the picture; 0: not all of it has the same, or there is none
+} vtSceneFacts;
+vtSceneFacts vtViewer_SceneFacts(const vtViewer* viewer);
+
+/// What technique `wyman` needs, for all glass; *measured: there was something to do.
+vtResult vtMeasureInnerDistances(vtScene* scene, bool* measured, vtError* error);

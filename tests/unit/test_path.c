@@ -10,41 +10,62 @@ static vtFrame frontal(void)
     return frame;
 }
 
+/// Puts a shape into the scene, scaled and moved along z; index 0: opaque.
+static void add(vtScene* scene, const char* name, float scale, float z, float ior)
+{
+    vtMesh mesh;
+    vtScene added;
+    vtError error;
+    vtMaterial material = vtDefaultMaterial();
+    material.opaque = ior <= 0.0f;
+    material.ior = ior;
+    const vtTransform place = {{{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, z}}};
+    assert_ok(vtCreateShape(name, &mesh, &error), error);
+    assert_ok(vtCreateMeshScene(&mesh, &material, &added, &error), error);
+    assert_ok(vtScene_Append(scene, &added, &place, &error), error);
+}
+
+/// The sine of the angle before over that after.
+static float sineRatio(const vtPathEvent* event)
+{
+    return sinf(event->incoming * VT_PI / 180.0f) / sinf(event->outgoing * VT_PI / 180.0f);
+}
+
 // Through a ball the angles of entry and exit mirror each other, and both obey Snell's law.
 static void ballIsPassedInTwoRefractions(void** state)
 {
     (void)state;
-    vtMesh mesh;
+    vtScene scene = {0};
     vtPath path;
     vtError error;
-    assert_ok(vtCreateShape("sphere", &mesh, &error), error);
+    add(&scene, "sphere", 1.0f, 0.0f, 1.5f);
     vtFrame frame = frontal();
-    assert_ok(vtTracePath(&mesh, &frame, 65.0f, 40.0f, &path, &error), error);
+    assert_ok(vtTracePath(&scene, &frame, 65.0f, 40.0f, &path, &error), error);
     assert_int_equal(path.eventCount, 2);
     assert_true(path.exited);
     for (int i = 0; i < 2; ++i) {
         const vtPathEvent* event = &path.events[i];
         assert_false(event->reflected);
         assert_near(vtLength(event->position), 1.0f, 2e-3);
-        float ratio = sinf(event->incoming * VT_PI / 180.0f) / sinf(event->outgoing * VT_PI / 180.0f);
-        assert_near(ratio, i == 0 ? 1.5f : 1.0f / 1.5f, 1e-3);
+        const float ratio = i == 0 ? 1.5f : 1.0f / 1.5f;
+        assert_near(sineRatio(event), ratio, 1e-3);
     }
     assert_near(path.events[0].incoming, path.events[1].outgoing, 0.2);
     assert_near(vtLength(path.direction), 1.0f, 1e-5);
-    vtDestroyMesh(&mesh);
+    vtDestroyScene(&scene);
 }
 
 static void rayBesideTheGlassMeetsNothing(void** state)
 {
     (void)state;
-    vtMesh mesh;
+    vtScene scene = {0};
     vtPath path;
     vtError error;
-    assert_ok(vtCreateShape("sphere", &mesh, &error), error);
+    add(&scene, "sphere", 1.0f, 0.0f, 1.5f);
     vtFrame frame = frontal();
-    assert_ok(vtTracePath(&mesh, &frame, 1.0f, 1.0f, &path, &error), error);
+    assert_ok(vtTracePath(&scene, &frame, 1.0f, 1.0f, &path, &error), error);
     assert_int_equal(path.eventCount, 0);
-    vtDestroyMesh(&mesh);
+    vtDestroyScene(&scene);
 }
 
 // In a diamond of index 2.42 light that enters the table is reflected inside (its critical angle is 24.4
@@ -52,30 +73,110 @@ static void rayBesideTheGlassMeetsNothing(void** state)
 static void diamondReflectsInside(void** state)
 {
     (void)state;
-    vtMesh mesh;
+    vtScene scene = {0};
     vtPath path;
     vtError error;
-    assert_ok(vtCreateShape("diamond", &mesh, &error), error);
+    add(&scene, "diamond", 1.0f, 0.0f, 1.5f);
     vtFrame frame = frontal();
     frame.view.eye = (vtVec3){0.1f, 4.0f, 0.2f};
     frame.ior = 2.42f;
     frame.maxEvents = 32;
-    assert_ok(vtTracePath(&mesh, &frame, 55.0f, 52.0f, &path, &error), error);
+    assert_ok(vtTracePath(&scene, &frame, 55.0f, 52.0f, &path, &error), error);
     int reflections = 0;
     for (int i = 0; i < path.eventCount; ++i) {
         reflections += path.events[i].reflected;
         assert_true(!path.events[i].reflected || path.events[i].incoming > 24.3f);
     }
     assert_true(reflections >= 2);
-    vtDestroyMesh(&mesh);
+    vtDestroyScene(&scene);
+}
+
+// Two balls of their own indices, one behind the other and scaled: four refractions; frame.ior is all
+// glass's.
+static void twoBallsArePassedOneAfterTheOther(void** state)
+{
+    (void)state;
+    vtScene scene = {0};
+    vtPath path;
+    vtError error;
+    add(&scene, "sphere", 0.5f, -2.0f, 1.6f);
+    add(&scene, "sphere", 1.0f, 0.0f, 1.3f);
+    vtFrame frame = frontal();
+    const float expected[] = {1.3f, 1.0f / 1.3f, 1.6f, 1.0f / 1.6f};
+    for (int common = 0; common < 2; ++common) {
+        frame.ior = common ? 1.2f : 0.0f;
+        assert_ok(vtTracePath(&scene, &frame, 53.0f, 49.0f, &path, &error), error);
+        assert_int_equal(path.eventCount, 4);
+        assert_true(path.exited);
+        assert_false(path.opaque);
+        for (int i = 0; i < 4; ++i) {
+            const vtPathEvent* event = &path.events[i];
+            const vtVec3 centre = {0, 0, i < 2 ? 0.0f : -2.0f};
+            const float radius = i < 2 ? 1.0f : 0.5f;
+            assert_near(vtLength(vtSub(event->position, centre)), radius, 2e-3);
+            assert_false(event->reflected);
+            const float own = expected[i], all = i % 2 == 0 ? 1.2f : 1.0f / 1.2f;
+            const float ratio = common ? all : own;
+            assert_near(sineRatio(event), ratio, 2e-3);
+        }
+    }
+    vtDestroyScene(&scene);
+}
+
+// A ball of air in a ball of glass: the smaller one counts where they overlap, so its walls are met the other
+// way round. Filled with the same glass it changes nothing.
+static void bubbleIsMetTheOtherWayRound(void** state)
+{
+    (void)state;
+    for (int filled = 0; filled < 2; ++filled) {
+        vtScene scene = {0};
+        vtPath path;
+        vtError error;
+        add(&scene, "sphere", 1.0f, 0.0f, 1.5f);
+        add(&scene, "sphere", 0.5f, 0.0f, filled ? 1.5f : 1.0f);
+        vtFrame frame = frontal();
+        assert_ok(vtTracePath(&scene, &frame, 55.0f, 47.0f, &path, &error), error);
+        assert_int_equal(path.eventCount, filled ? 2 : 4);
+        assert_true(path.exited);
+        for (int i = 0; i < path.eventCount; ++i) {
+            const vtPathEvent* event = &path.events[i];
+            const bool outer = filled || i == 0 || i == 3;
+            const float radius = outer ? 1.0f : 0.5f;
+            assert_near(vtLength(event->position), radius, 2e-3);
+            const float expected = i % 2 == 0 ? 1.5f : 1.0f / 1.5f;
+            assert_near(sineRatio(event), expected, 2e-3);
+        }
+        vtDestroyScene(&scene);
+    }
+}
+
+// What is opaque ends a path, behind glass and without.
+static void opaqueThingsEndThePath(void** state)
+{
+    (void)state;
+    vtScene scene = {0};
+    vtPath path;
+    vtError error;
+    add(&scene, "sphere", 1.0f, 0.0f, 1.5f);
+    add(&scene, "plane", 2.0f, -2.0f, 0.0f);
+    vtFrame frame = frontal();
+    assert_ok(vtTracePath(&scene, &frame, 55.0f, 47.0f, &path, &error), error);
+    assert_int_equal(path.eventCount, 2);
+    assert_true(path.opaque);
+    assert_false(path.exited);
+    assert_near(path.end.z, -2.0f, 1e-4);
+    assert_ok(vtTracePath(&scene, &frame, 10.0f, 50.0f, &path, &error), error);
+    assert_int_equal(path.eventCount, 0);
+    assert_true(path.opaque);
+    vtDestroyScene(&scene);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ballIsPassedInTwoRefractions),
-        cmocka_unit_test(rayBesideTheGlassMeetsNothing),
-        cmocka_unit_test(diamondReflectsInside),
+        cmocka_unit_test(ballIsPassedInTwoRefractions), cmocka_unit_test(rayBesideTheGlassMeetsNothing),
+        cmocka_unit_test(diamondReflectsInside),        cmocka_unit_test(twoBallsArePassedOneAfterTheOther),
+        cmocka_unit_test(bubbleIsMetTheOtherWayRound),  cmocka_unit_test(opaqueThingsEndThePath),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

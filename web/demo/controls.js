@@ -1,5 +1,5 @@
 // The panel and the gallery: everything a visitor can set, in step with the store.
-import { environments, extraEnvironments, extraModels, glasses, outputs, peels, presets, qualities, shapes, techniques } from './state.js';
+import { environments, extraEnvironments, extraModels, glassOf, glasses, outputs, peels, presets, qualities, scenes, shapes, techniques } from './state.js';
 
 const element = (id) => document.getElementById(id);
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
@@ -41,10 +41,11 @@ function choose(id, value) {
   for (const input of element(id).querySelectorAll('input')) input.checked = input.value === value;
 }
 
-function addShape(url, name, picture, onChoose) {
+function addShape(url, name, picture, onChoose, title = name) {
   const image = picture ? create('img', { src: picture, alt: '', width: 56, height: 56, draggable: false }) : create('span', { className: 'blank', textContent: '.glb' });
   const button = create('button', { type: 'button', className: 'shape' }, image, create('span', { className: 'name', textContent: name }));
-  button.setAttribute('aria-label', name); // low windows show the picture alone
+  button.setAttribute('aria-label', title); // low windows show the picture alone
+  if (title !== name) button.title = title;
   button.dataset.url = url;
   button.addEventListener('click', () => onChoose(url));
   element('gallery').append(button);
@@ -56,8 +57,9 @@ function addShape(url, name, picture, onChoose) {
  * @param {object} page what the buttons do, and what the viewer can
  */
 export function buildControls(store, page) {
-  const chooseModel = (model) => store.set({ model, orbit: 'auto auto auto', target: 'auto auto auto' });
+  const chooseModel = (model) => store.set({ model, iors: '', orbit: 'auto auto auto', target: 'auto auto auto', ...scenes.get(model)?.state });
   for (const shape of shapes) addShape(shape, capital(shape), `pictures/${shape}.png`, chooseModel);
+  for (const [id, { title, name, picture }] of scenes) addShape(id, name, picture, chooseModel, title);
   for (const [id, { title, picture }] of extraModels) addShape(id, title, picture, chooseModel);
   for (const { id, name, ior } of glasses) {
     const button = create('button', { type: 'button', className: 'chip', textContent: name });
@@ -98,6 +100,38 @@ export function buildControls(store, page) {
   element('controls').addEventListener('submit', (event) => event.preventDefault());
   store.subscribe((state) => show(state, page.files, chooseModel, store));
   document.body.classList.add('ready');
+}
+
+/** A slider for each object of glass, where there are several. */
+function showGlass(state, store) {
+  const list = element('objects'), glass = glassOf(state);
+  list.hidden = glass.length === 0;
+  element('one-glass').hidden = glass.length > 0;
+  if (list.dataset.model !== state.model) {
+    list.dataset.model = state.model;
+    list.replaceChildren(create('legend', { textContent: 'Index of refraction' }), ...glass.map(({ name }, i) => {
+      const id = `object-${i}`;
+      const input = create('input', { id, type: 'range', min: 1, max: 2.6, step: 0.001 });
+      input.addEventListener('input', () => {
+        const iors = glassOf(store.state).map(({ ior }, k) => (k === i ? Number(input.value) : ior));
+        store.set({ iors: iors.join() });
+      });
+      const label = create('label', { htmlFor: id, textContent: name });
+      return create('div', { className: 'slider' }, label, create('output', { id: `${id}-value`, htmlFor: id }), input);
+    }));
+  }
+  glass.forEach(({ ior }, i) => {
+    const input = element(`object-${i}`), text = sliders.ior(ior);
+    if (Number(input.value) !== ior) input.value = ior;
+    element(`object-${i}-value`).textContent = text;
+    input.setAttribute('aria-valuetext', text);
+    input.style.setProperty('--share', shareOf(input, ior));
+  });
+}
+
+/** Where a slider's value lies between its ends. */
+function shareOf({ min, max }, value) {
+  return Math.max(0, (Math.min(max, value) - min) / (max - min || 1)).toFixed(4);
 }
 
 const isLayer = (output) => output.startsWith('layer');
@@ -154,9 +188,9 @@ function show(state, files, chooseModel, store) {
     if (Number(input.value) !== value) input.value = value;
     element(`${id}-value`).textContent = text;
     input.setAttribute('aria-valuetext', text);
-    const share = (Math.min(input.max, value) - input.min) / (input.max - input.min || 1);
-    input.style.setProperty('--share', Math.max(0, share).toFixed(4));
+    input.style.setProperty('--share', shareOf(input, value));
   }
+  showGlass(state, store);
   for (const id of checks) element(id).checked = state[id];
   for (const id of ['quality', 'environment', 'output', 'theme']) choose(id, state[id]);
   choose('preset', state.layers || state.steps || state.events ? '' : state.preset); // none: the visitor's own numbers

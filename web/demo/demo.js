@@ -2,7 +2,7 @@
 import { VitrineViewer } from '../element/vitrine-viewer.js';
 import { buildControls } from './controls.js';
 import { PathOverlay } from './path.js';
-import { Store, defaults, extraEnvironments, extraModels, loadExtraModels, peels, readState, reference, techniques, writeState } from './state.js';
+import { Store, defaults, extraEnvironments, extraModels, loadExtraModels, objectsOf, peels, readState, reference, scenes, techniques, writeState } from './state.js';
 import { Wipe } from './wipe.js';
 
 const element = (id) => document.getElementById(id);
@@ -29,11 +29,13 @@ function showError(text) {
 
 /** What both viewers of a comparison have in common, as attributes; null: absent. */
 function attributesOf(state) {
+  const objects = objectsOf(state);
   return {
-    src: extraModels.get(state.model)?.url ?? state.model,
+    src: objects === null ? (extraModels.get(state.model)?.url ?? state.model) : null,
+    objects,
     'environment-image': extraEnvironments.get(state.environment)?.url ?? state.environment,
     'skybox-image': state.backdrop ? '' : null,
-    ior: state.ior,
+    ior: objects === null ? state.ior : null,
     preset: state.preset,
     layers: state.layers || null,
     steps: state.steps || null,
@@ -93,7 +95,7 @@ function orbitAttribute({ orbit, fov }) {
 
 function showLeft(state) {
   const attributes = { ...attributesOf(state), technique: state.technique, 'auto-rotate': state.rotate ? '' : null };
-  attributes.alt = `${files.get(state.model) ?? state.model}, in glass`;
+  attributes.alt = `${files.get(state.model) ?? scenes.get(state.model)?.title ?? state.model}, in glass`;
   const isPlaced = state.orbit !== cameraOrbit || state.target !== cameraTarget;
   if (isPlaced) attributes['camera-orbit'] = orbitAttribute(state);
   else delete attributes['camera-target'];
@@ -176,7 +178,7 @@ left.addEventListener('error', ({ detail }) => {
     if (!sentence.includes(id)) continue;
     sentence = sentence.replaceAll(id, name);
     note('');
-    store.set(before.get(url) ?? {});
+    if (detail.type === 'loadfailure') store.set(before.get(url) ?? {});
   }
   element('progress').classList.add('done');
   showError(sentence);
@@ -190,8 +192,8 @@ function openFile(file, kind = /\.(hdr|png|jpe?g)$/i.test(file.name) ? 'environm
   showError('');
   const { state } = store;
   if (kind === 'model') {
-    before.set(url, { model: state.model, orbit: state.orbit, target: state.target });
-    store.set({ model: url, orbit: defaults.orbit, target: defaults.target });
+    before.set(url, { model: state.model, iors: state.iors, orbit: state.orbit, target: state.target });
+    store.set({ model: url, iors: '', orbit: defaults.orbit, target: defaults.target });
   } else {
     before.set(url, { environment: state.environment });
     store.set({ environment: url });
@@ -202,8 +204,8 @@ function openFile(file, kind = /\.(hdr|png|jpe?g)$/i.test(file.name) ? 'environm
 function comparePicture(blob, name) {
   const url = URL.createObjectURL(blob);
   files.set(url, name);
-  const { model, environment, ior, exposure, orbit, target, fov } = store.state;
-  pictureViews.set(url, { model, environment, ior, exposure, orbit, target, fov });
+  const { model, environment, ior, iors, exposure, orbit, target, fov } = store.state;
+  pictureViews.set(url, { model, environment, ior, iors, exposure, orbit, target, fov });
   store.set({ compare: url });
 }
 

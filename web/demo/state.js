@@ -17,6 +17,38 @@ export const techniques = [
 export const peels = (id) => !['single', 'exact'].includes(id);
 
 export const shapes = ['knot', 'sphere', 'torus', 'goblet', 'bottle', 'diamond'];
+
+/**
+ * Scenes of several objects, by id. `name` is what the gallery has room for; an object with an index of refraction is
+ * glass and gets a slider; `state`: what else choosing the scene sets.
+ */
+export const scenes = new Map([
+  ['behind', {
+    title: 'Knot behind a cube', name: 'Behind', picture: 'pictures/behind.png', // Wang & Chi 2014, figure 3.33
+    objects: [{ name: 'Cube', spec: 'cube', ior: 1.5 }, { name: 'Knot', spec: 'knot:at=0,0,-2', ior: 1.5 }],
+    state: { environment: 'studio', orbit: '12deg 82deg auto', target: '0m -0.15m auto' },
+  }],
+  ['tumbler', {
+    title: 'Water in a tumbler', name: 'Tumbler', picture: 'pictures/tumbler.png',
+    objects: [{ name: 'Tumbler', spec: 'tumbler', ior: 1.5 }, { name: 'Water', spec: 'water', ior: 1.333 }, { name: 'Backdrop', spec: 'plane:checker=24,scale=4,at=0,0,-3' }],
+    state: { environment: 'studio', orbit: '10deg 76deg auto' },
+  }],
+]);
+
+/** The glass of a scene with the indices in force, in order. @returns {{name: string, ior: number}[]} */
+export function glassOf({ model, iors }) {
+  const own = iors === '' ? [] : iors.split(',').map(Number);
+  const glass = scenes.get(model)?.objects.filter(({ ior }) => ior !== undefined) ?? [];
+  return glass.map(({ name, ior }, i) => ({ name, ior: own[i] ?? ior }));
+}
+
+/** A scene as the attribute `objects` takes it; null: the model is none. */
+export function objectsOf(state) {
+  const glass = glassOf(state);
+  const write = ({ spec, ior }) => (ior === undefined ? spec : `${spec}${spec.includes(':') ? ',' : ':'}ior=${glass.shift().ior}`);
+  return scenes.get(state.model)?.objects.map(write).join('; ') ?? null;
+}
+
 export const environments = ['studio', 'sky', 'checker'];
 export const qualities = ['auto', 'high', 'medium', 'low'];
 export const outputs = ['picture', 'analysis', 'layer-depth', 'layer-normal'];
@@ -32,13 +64,13 @@ export const glasses = [
 /** The stored picture, and the scene it was traced from (pictures/make.sh). */
 export const reference = {
   url: 'pictures/reference.png',
-  scene: { model: 'knot', environment: 'sky', backdrop: true, ior: 1.5, exposure: 0, fov: 45, orbit: '30deg 72deg 3.4m', target: '0m 0m 0m', rotate: false, output: 'picture' },
+  scene: { model: 'knot', environment: 'sky', backdrop: true, ior: 1.5, iors: '', exposure: 0, fov: 45, orbit: '30deg 72deg 3.4m', target: '0m 0m 0m', rotate: false, output: 'picture' },
 };
 
 export const defaults = {
   model: 'knot', environment: 'sky', backdrop: true,
   technique: 'exact', compare: 'none', wipe: 50,
-  ior: 1.5, preset: 'medium', layers: 0, steps: 0, events: 0, quality: 'auto', // 0: as the preset says
+  ior: 1.5, iors: '', preset: 'medium', layers: 0, steps: 0, events: 0, quality: 'auto', // 0: as the preset says
   output: 'picture', layer: 0, exposure: 0, fov: 45, rotate: false,
   orbit: 'auto auto auto', target: 'auto auto auto', theme: 'auto',
 };
@@ -50,15 +82,19 @@ const number = (min, max, whole = false) => (text) => {
   const fits = value >= min && value <= max && (!whole || Number.isInteger(value));
   return fits ? [value] : [null, `must be a ${whole ? 'whole ' : ''}number from ${min} to ${max}`];
 };
+const numbers = (min, max) => (text) => {
+  const fits = text === '' || text.split(',').every((part) => number(min, max)(part)[1] === undefined);
+  return fits ? [text] : [null, `must be numbers from ${min} to ${max} between commas`];
+};
 const flag = (text) => (/^[01]$/.test(text) ? [text === '1'] : [null, 'must be 0 or 1']);
 const words = (unit) => (text) => {
   const word = String.raw`(auto|[-+]?\d*\.?\d+(e[-+]?\d+)?(${unit}))`;
   return new RegExp(`^${word} ${word} ${word}$`).test(text) ? [text] : [null, `must be three of auto or a number with ${unit.replaceAll('|', ', ')}`];
 };
 const readers = {
-  model: (text) => oneOf([...shapes, ...extraModels.keys()])(text), environment: (text) => oneOf([...environments, ...extraEnvironments.keys()])(text), backdrop: flag,
+  model: (text) => oneOf([...shapes, ...scenes.keys(), ...extraModels.keys()])(text), environment: (text) => oneOf([...environments, ...extraEnvironments.keys()])(text), backdrop: flag,
   technique: oneOf(ids), compare: oneOf(['none', 'reference', ...ids]), wipe: number(0, 100),
-  ior: number(1, 4), preset: oneOf(presets), layers: number(0, 16, true), steps: number(0, 1000, true), events: number(0, 64, true), quality: oneOf(qualities),
+  ior: number(1, 4), iors: numbers(1, 4), preset: oneOf(presets), layers: number(0, 16, true), steps: number(0, 1000, true), events: number(0, 64, true), quality: oneOf(qualities),
   output: oneOf(outputs), layer: number(0, 15, true), exposure: number(-10, 10), fov: number(1, 170), rotate: flag,
   orbit: words('deg|rad|m|cm|mm|%'), target: words('m|cm|mm'), theme: oneOf(['auto', 'dark', 'light']),
 };

@@ -17,7 +17,7 @@
  */
 
 /** Names that the core knows by itself; anything else in `src` or `environment-image` is a URL. */
-export const shapes = ['sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond'];
+export const shapes = ['sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'cube', 'plane', 'tumbler', 'water'];
 export const environments = ['studio', 'sky', 'checker'];
 
 const techniques = ['exact', 'layered', 'oliveira', 'wyman', 'single', 'kay-thickness', 'kay-nonlinear', 'kay-linear'];
@@ -38,6 +38,7 @@ const ofPreset = { integer: true, defaultText: "the preset's" };
 /** @type {Attribute[]} */
 export const attributes = [
   string('src', `URL of a .glb or self-contained .gltf, or a built-in shape: ${shapes.join(', ')}.`),
+  string('objects', 'More objects, or all, between ; or line breaks: NAME or NAME:key=value,key=value, NAME as in src; the keys are those of --object, see `vitrine --help`.'),
   string('alt', 'What the picture shows, for those who cannot see it.'),
   string('poster', 'URL of a picture that stands until the first frame.'),
   oneOf('loading', ['auto', 'lazy', 'eager'], 'eager: fetches at once; auto and lazy: when the element comes into view.'),
@@ -45,14 +46,16 @@ export const attributes = [
   boolean('camera-controls', 'The view follows mouse, touch, pen and keys.'),
   string('camera-orbit', 'Azimuth (0: from +Z), angle from +Y, and distance: deg or rad, then m, cm, mm or % of the distance that shows the whole object; each may be auto.', { default: 'auto auto auto' }),
   string('camera-target', 'The point looked at, "x y z" in m, cm or mm; auto: the centre of the object.', { default: 'auto auto auto' }),
-  string('field-of-view', 'Vertical, deg or rad, 1 to 170 degrees; auto: 45deg.', { default: 'auto' }),
+  string('field-of-view', 'Vertical, deg or rad, 1 to 170 degrees; auto: 45deg, or that of the camera.', { default: 'auto' }),
+  number('camera-index', 0, 255, null, 'The camera of the file that is looked through, where camera-orbit, camera-target and field-of-view are auto.', { integer: true, defaultText: 'none' }),
   boolean('auto-rotate', 'Turns slowly while nobody touches it; not where the visitor prefers reduced motion.'),
   string('environment-image', `What the glass refracts: URL of an equirectangular .hdr, .png or .jpg, or ${environments.join(', ')}.`, { default: 'studio' }),
   string('skybox-image', 'When present, the environment is shown behind the glass; its value, if any, is the environment where environment-image is absent. Absent: the page shows behind the glass.'),
   number('exposure', 1e-6, 1e6, 1, 'Factor on the light of the picture.'),
   oneOf('touch-action', ['pan-y', 'pan-x', 'none'], 'What a finger does to the page rather than to the view.'),
   boolean('disable-zoom', 'Wheel, pinch and + − keys do not change the distance.'),
-  number('ior', 1, 4, null, 'Index of refraction of the glass.', { defaultText: "the file's, else 1.5" }),
+  number('ior', 1, 4, null, 'Index of refraction of all glass.', { defaultText: "each object's own" }),
+  oneOf('fresnel', ['on', 'off'], 'on: glass reflects where it refracts, by Fresnel; off: only where it must.'),
   oneOf('technique', techniques, 'How the glass is computed; see `vitrine list`.'),
   oneOf('preset', presets, 'What layers, steps and max-events are where they are absent: less work for weak GPUs, more accuracy for strong ones.', { default: 'medium' }),
   number('layers', 1, 16, null, 'Depth layers peeled.', ofPreset),

@@ -1,7 +1,7 @@
 // The compiled module, loaded once a page, and one Viewer (web/viewer.c) for each canvas.
 import createVitrine from '../vitrine-core.js';
 import { outputs, presets } from './attributes.js';
-import { openInCore } from './picture.js';
+import { openInCore, placePicture } from './picture.js';
 
 /** Browsers keep about 16 contexts; some are left to the rest of the page. */
 const mostContexts = 12;
@@ -117,19 +117,46 @@ export class Viewer {
   }
 
   /**
-   * Settings of the glass (vtViewer_SetGlass); layers, steps and maxEvents null: as the preset says.
+   * Settings of the glass (vtViewer_SetGlass); layers, steps and maxEvents null: as the preset says; ior null: each object's own.
    * @returns {string} a sentence, or ''
    */
-  setGlass({ technique, ior, preset, layers, steps, maxEvents, output, layer, exposure, transparent, samples, lessened }) {
-    return this.attempt('SetGlass', technique, ior, presets.indexOf(preset), layers ?? 0, steps ?? 0, maxEvents ?? 0, outputs.indexOf(output),
-      layer, exposure, Number(transparent), samples, Number(lessened));
+  setGlass({ technique, ior, preset, layers, steps, maxEvents, output, layer, exposure, transparent, samples, lessened, fresnel }) {
+    return this.attempt('SetGlass', technique, ior ?? 0, presets.indexOf(preset), layers ?? 0, steps ?? 0, maxEvents ?? 0, outputs.indexOf(output),
+      layer, exposure, Number(transparent), samples, Number(lessened), Number(fresnel !== 'off'));
   }
 
   /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */
   attemptFile(name, source) {
     this.#core.GL.makeContextCurrent(this.#context);
-    const open = (call, ...values) => this.attempt(call, ...values, source.name);
+    const more = source.spec === undefined ? [] : [source.spec];
+    const open = (call, ...values) => this.attempt(call, ...values, source.name, ...more);
     return openInCore(this.#core, this.gl, name, source.contents, open) ?? `${source.name}: too large for the memory of this page`;
+  }
+
+  /** Begins a scene of these parts; it is not shown yet. @param {import('./loading.js').Source[]} parts @returns {string} a sentence, or '' */
+  begin(parts) {
+    this.images = []; // that the browser must decode
+    this.call('Begin');
+    for (const part of parts) {
+      const first = this.call('ImageCount');
+      const problem = part.contents === null ? this.attempt('AddShape', part.name, part.spec) : this.attemptFile('AddModel', part);
+      if (problem) return problem;
+      for (let index = first; index < this.call('ImageCount'); ++index) {
+        const place = this.call('ImageBytes', index);
+        const bytes = this.#core.HEAPU8.slice(place, place + this.call('ImageSize', index));
+        if (place !== 0) this.images.push({ index, bytes, name: `${part.name}: image ${index - first}` });
+      }
+    }
+    return '';
+  }
+
+  /** Shows the scene that was begun. @param {Map<number, ImageBitmap>} pictures its images, decoded; white without @returns {string} a sentence, or '' */
+  show(pictures) {
+    for (const [index, picture] of pictures) {
+      const place = placePicture(this.#core, this.gl, picture);
+      if (place !== 0) this.call('SetImage', index, place, picture.width, picture.height);
+    }
+    return this.attempt('Show');
   }
 
   problem() {

@@ -24,17 +24,17 @@ export class Loader {
 
   /**
    * Loads what differs from what is held, in place of any load before.
-   * @param {{environment: string, model: string}} urls '': none
+   * @param {{environment: {url: string}, model: ReturnType<import('./loading.js').wishOf>}} wishes url '': none
    * @param {{environment: object|null, model: object|null}} held sources
    * @returns {Promise<boolean>} false where another load has begun, or this was aborted
    */
-  async load(urls, held) {
+  async load(wishes, held) {
     this.abort();
     const { signal } = (this.#abort = new AbortController());
-    const isNew = (kind) => urls[kind] !== '' && held[kind]?.url !== urls[kind];
+    const isNew = (kind) => wishes[kind].url !== '' && held[kind]?.url !== wishes[kind].url;
     if (isNew('model')) this.progress = new Progress(this.#told.progress);
     const kinds = ['environment', 'model'].filter(isNew); // the first frame shall have the environment
-    const fetches = kinds.map((kind) => this.#fetch(kind, urls[kind], signal));
+    const fetches = kinds.map((kind) => this.#fetch(kind, wishes[kind], signal));
     for (const [i, kind] of kinds.entries()) {
       const source = await fetches[i];
       if (signal.aborted) return false;
@@ -44,19 +44,31 @@ export class Loader {
   }
 
   /** Null where it failed. */
-  async #fetch(kind, url, signal) {
-    const { progress } = this;
+  async #fetch(kind, { url, parts }, signal) {
     try {
-      progress?.expect(kind);
-      const known = builtIn(kind, url);
-      if (known) progress?.bytes(kind, 1, 1);
-      if (known) return known;
-      const source = await fetchSource(url, signal, (received, total) => progress?.bytes(kind, received, total));
-      if (kind === 'environment') source.contents = await decodePicture(source.contents);
+      if (kind === 'model') return { url, parts: await this.#fetchParts(parts, signal) };
+      const source = await this.#fetchOne(kind, url, signal);
+      if (source.contents !== null) source.contents = await decodePicture(source.contents);
       return source;
     } catch (reason) {
       if (!signal.aborted) this.#told.failed(kind, reason);
       return null;
     }
+  }
+
+  /** What several parts have in common is fetched once. */
+  #fetchParts(parts, signal) {
+    const files = new Map();
+    for (const { url } of parts) if (!files.has(url)) files.set(url, this.#fetchOne('model', url, signal));
+    return Promise.all(parts.map(async ({ url, spec }) => ({ ...(await files.get(url)), spec })));
+  }
+
+  async #fetchOne(kind, url, signal) {
+    const { progress } = this;
+    const key = `${kind} ${url}`;
+    progress?.expect(key);
+    const known = builtIn(kind, url);
+    if (known) progress?.bytes(key, 1, 1);
+    return known ?? fetchSource(url, signal, (received, total) => progress?.bytes(key, received, total));
   }
 }

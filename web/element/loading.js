@@ -2,12 +2,28 @@
 import { environments, shapes } from './attributes.js';
 
 /**
- * What a model or an environment is made from; kept, so that a restored context can have it again.
+ * What an environment or a part of a scene is made from; kept, so that a restored context can have it again.
  * @typedef {object} Source
  * @property {string} url as in the attribute; a built-in name where contents is null
  * @property {string} name for sentences
  * @property {Uint8Array|ImageBitmap|null} contents
+ * @property {string} [spec] of a part: name and keys as in the attribute `objects`; '': as it is
  */
+
+/**
+ * @typedef {object} Scene
+ * @property {string} url that of its wish
+ * @property {Source[]} parts
+ * @property {Map<number, ImageBitmap>} [pictures] of the parts' materials, once they are decoded
+ */
+
+/** What `src` and `objects` ask for; `url` tells one wish from another. @returns {{url: string, parts: {url: string, spec: string}[]}} */
+export function wishOf(src, objects) {
+  const specs = objects.split(/[;\n]/).map((text) => text.trim().replace(/\s*([:=,])\s*/g, '$1')).filter(Boolean);
+  const parts = specs.map((spec) => ({ url: spec.replace(/:[^:/]*$/, ''), spec })); // URLs have a slash behind their last colon
+  if (src !== '') parts.unshift({ url: src, spec: '' });
+  return { url: specs.length === 0 ? src : [src, ...specs].join('\n'), parts };
+}
 
 /** The built-in of that name, or null. @returns {Source|null} */
 export function builtIn(kind, url) {

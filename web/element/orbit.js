@@ -42,18 +42,20 @@ export function parseTarget(text) {
   return target;
 }
 
-/** @returns {number} degrees */
+/** @returns {number|null} degrees; null: auto */
 export function parseFieldOfView(text) {
-  if (text.trim() === 'auto') return 45;
+  if (text.trim() === 'auto') return null;
   const degrees = (angle(text.trim()) * 180) / Math.PI;
   if (degrees >= 1 && degrees <= 170) return degrees;
   throw new Error(`field-of-view is '${text}'; it must be 1deg to 170deg, in deg or rad, or auto`);
 }
 
+export const usualFieldOfView = 45; // degrees
+
 /** Where the camera is. What is auto follows `framed`, the view that shows the whole object. */
 export class Orbit {
-  framed = { theta: 0, phi: Math.PI / 2, distance: 1, target: [0, 0, 0] };
-  fieldOfView = 45; // vertical, degrees
+  framed = { theta: 0, phi: Math.PI / 2, distance: 1, target: [0, 0, 0], fieldOfView: usualFieldOfView };
+  wantedFieldOfView = null; // vertical, degrees; null: auto
 
   constructor() {
     this.place(parseOrbit('auto auto auto'));
@@ -69,11 +71,15 @@ export class Orbit {
     this.wantedTarget = target;
   }
 
-  /** Takes over the eye and target that show the whole object, from vtViewer_ResetView. */
-  frame(eye, target) {
+  /** Takes over the view that shows the whole object, or the file's camera. */
+  frame(eye, target, fieldOfView) {
     const [x, y, z] = eye.map((value, i) => value - target[i]);
     const distance = Math.hypot(x, y, z);
-    this.framed = { theta: Math.atan2(x, z), phi: Math.acos(y / distance), distance, target };
+    this.framed = { theta: Math.atan2(x, z), phi: Math.acos(y / distance), distance, target, fieldOfView };
+  }
+
+  get fieldOfView() {
+    return this.wantedFieldOfView ?? this.framed.fieldOfView;
   }
 
   get theta() {

@@ -1,5 +1,7 @@
 // PNG and JPEG, which the browser decodes; the core reads Radiance HDR only, and so is 12 KB smaller.
 
+const largestTexture = 2048; // VT_MAX_ARRAY_SIDE
+
 /**
  * What the core opens as environment: the decoded picture, or the bytes as they are where they hold none that the
  * browser knows, so that the core says what is wrong.
@@ -10,6 +12,16 @@ export async function decodePicture(bytes) {
   if (bytes[0] === 0x23 && bytes[1] === 0x3f) return bytes; // "#?" of Radiance HDR
   const asInTheFile = { colorSpaceConversion: 'none', premultiplyAlpha: 'none' };
   return createImageBitmap(new Blob([bytes]), asInTheFile).catch(() => bytes);
+}
+
+/** As materials have them: no larger than the core keeps them. @returns {Promise<ImageBitmap|null>} null: not a picture */
+export async function decodeTexture(bytes) {
+  const picture = await decodePicture(bytes);
+  if (!(picture instanceof ImageBitmap)) return null;
+  const scale = largestTexture / Math.max(picture.width, picture.height);
+  if (scale >= 1) return picture;
+  const [resizeWidth, resizeHeight] = [picture.width, picture.height].map((side) => Math.max(1, Math.round(scale * side)));
+  return createImageBitmap(picture, { resizeWidth, resizeHeight, resizeQuality: 'high', colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
 }
 
 /**
@@ -32,6 +44,13 @@ export function openInCore(core, gl, name, contents, open) {
   }
   readPicture(gl, contents, core.HEAPU8, place);
   return open('OpenPicture', place, contents.width, contents.height);
+}
+
+/** Copies a decoded picture into the core's memory. @returns {number} where; 0: memory is out */
+export function placePicture(core, gl, picture) {
+  const place = core._malloc(4 * picture.width * picture.height);
+  if (place !== 0) readPicture(gl, picture, core.HEAPU8, place);
+  return place;
 }
 
 /** Its RGBA bytes, untouched by alpha, which a 2D canvas would multiply in. */

@@ -2,7 +2,8 @@
 // seen and something changed; once all rests, samples are added to the picture until it has enough.
 import { builtIn } from './loading.js';
 import { Viewer } from './core.js';
-import { Orbit } from './orbit.js';
+import { decodeTexture } from './picture.js';
+import { Orbit, usualFieldOfView } from './orbit.js';
 import { Quality, levels } from './quality.js';
 
 const largestDpr = 2; // canvas pixels per CSS pixel
@@ -15,6 +16,7 @@ const stillAfter = 250; // milliseconds without motion until the full frame
  * @property {(milliseconds: number) => void} frame is on the screen
  * @property {(detail: object) => void} scaled of the render-scale event
  * @property {() => void} turned by itself
+ * @property {(cause: string, sentence: string) => void} warned of something left out; '': of nothing any more
  * @property {() => void} lost the context
  * @property {() => void} restored
  * @property {(sentence: string) => void} failed to draw
@@ -24,8 +26,11 @@ const stillAfter = 250; // milliseconds without motion until the full frame
 export class Stage {
   orbit = new Orbit();
   quality = new Quality();
-  /** Of Viewer.setGlass, for a full frame; ior null: the file's. */
-  glass = { technique: 'exact', ior: null, preset: 'medium', layers: null, steps: null, maxEvents: null, output: 'picture', layer: 0, exposure: 0, transparent: true, samples: 64 };
+  /** Of Viewer.setGlass, for a full frame. */
+  glass = { technique: 'exact', ior: null, fresnel: 'on', preset: 'medium', layers: null, steps: null, maxEvents: null, output: 'picture', layer: 0, exposure: 0, transparent: true, samples: 64 };
+  /** Of the file, to look through; null: all of the scene is in view. */
+  cameraIndex = null;
+  /** @type {{model: import('./loading.js').Scene|null, environment: import('./loading.js').Source|null}} */
   scene = { model: null, environment: builtIn('environment', 'studio') };
 
   #host;
@@ -33,7 +38,7 @@ export class Stage {
   #core = null;
   #viewer = null;
   #pending = {}; // sources that no viewer was there for
-  #fileIor = 1.5;
+  #decoding = null; // the scene whose pictures the browser decodes
   #visible = false;
   #spin = 0;
   #lastTime = 0;
@@ -75,10 +80,18 @@ export class Stage {
     this.#schedule();
   }
 
-  /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source} source */
+  /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source|import('./loading.js').Scene} source */
   show(kind, source) {
+    if (kind === 'model') this.#decoding = null;
     if (this.#viewer === null || this.#viewer.isLost) this.#pending[kind] = source;
     else this.#upload(kind, source);
+  }
+
+  /** There is no model any more. */
+  dropModel() {
+    this.scene.model = this.#decoding = null;
+    delete this.#pending.model;
+    this.close();
   }
 
   invalidate() {
@@ -185,22 +198,42 @@ export class Stage {
 
   #upload(kind, source, isNew = true) {
     const viewer = this.#viewer;
-    const oldIor = this.#fileIor;
-    this.#fileIor = 1.5; // unless the file says otherwise
-    const [openName, setName] = kind === 'model' ? ['OpenModel', 'SetShape'] : ['OpenEnvironment', 'SetEnvironment'];
-    if (kind === 'model') this.#applyGlass({ ...this.glass, technique: 'single', ior: 1.5, output: 'picture' });
-    const problem = source.contents === null ? viewer.attempt(setName, source.name) : viewer.attemptFile(openName, source);
-    const isModel = kind === 'model' && !problem;
-    this.#fileIor = isModel ? viewer.info().ior : oldIor;
-    if (isModel) this.#framedFor = '';
+    let problem;
+    if (kind === 'environment') {
+      problem = source.contents === null ? viewer.attempt('SetEnvironment', source.name) : viewer.attemptFile('OpenEnvironment', source);
+    } else {
+      problem = viewer.begin(source.parts);
+      if (!problem && source.pictures === undefined && viewer.images.length > 0) {
+        this.#decode(source, viewer.images);
+        return;
+      }
+      this.#applyGlass({ ...this.glass, technique: 'single', ior: null, output: 'picture' }); // which any scene has what it takes for
+      problem ||= viewer.show(source.pictures ?? new Map());
+      if (!problem) this.#framedFor = '';
+    }
     if (!problem) this.scene[kind] = source;
     this.invalidate(); // after a failure too: the glass was changed above
     if (problem) this.#told.rejected(kind, problem);
     else if (isNew) this.#told.shown(kind);
   }
 
+  /** Has the browser decode a scene's pictures, then shows it, unless another one has come. */
+  async #decode(source, images) {
+    this.#decoding = source;
+    const pictures = new Map(), missing = [];
+    await Promise.all(images.map(async ({ index, bytes, name }) => {
+      const picture = await decodeTexture(bytes);
+      if (picture !== null) pictures.set(index, picture);
+      else missing.push(`${name} is no picture that this browser can decode; white is shown in its place`);
+    }));
+    source.pictures = pictures;
+    if (this.#decoding !== source) return;
+    this.#told.warned('pictures', missing.sort().join('. '));
+    this.show('model', source);
+  }
+
   #applyGlass(glass, lessened = false) {
-    return this.#viewer.setGlass({ ...glass, ior: glass.ior ?? this.#fileIor, lessened });
+    return this.#viewer.setGlass({ ...glass, lessened });
   }
 
   #applyView() {
@@ -208,17 +241,22 @@ export class Stage {
     return this.#viewer.attempt('SetView', ...eye, ...target, fieldOfView);
   }
 
-  /** Finds the view that shows the whole object, where the object or the shape of the picture is new. */
+  /** Finds the view that shows the whole scene, or the file's camera, where the scene or the shape of the picture is new. */
   #frameObject() {
     const [width, height] = this.#size(1);
-    const { fieldOfView } = this.orbit;
-    const key = `${width / height} ${fieldOfView}`;
+    const { orbit, cameraIndex } = this;
+    const key = `${width / height} ${orbit.wantedFieldOfView} ${cameraIndex}`;
     if (key === this.#framedFor) return;
     this.#framedFor = key;
-    this.#viewer.attempt('SetView', 0, 0, 1, 0, 0, 0, fieldOfView);
-    this.#viewer.call('ResetView', width / height);
-    const { eye, target } = this.#viewer.info();
-    this.orbit.frame(eye, target);
+    const problem = cameraIndex === null ? '' : this.#viewer.attempt('UseCamera', cameraIndex);
+    const hasCamera = cameraIndex !== null && !problem;
+    if (!hasCamera) {
+      this.#viewer.attempt('SetView', 0, 0, 1, 0, 0, 0, orbit.wantedFieldOfView ?? usualFieldOfView);
+      this.#viewer.call('ResetView', width / height);
+    }
+    const { eye, target, fov } = this.#viewer.info();
+    orbit.frame(eye, target, fov);
+    this.#told.warned('camera', problem);
   }
 
   get #dpr() {

@@ -4,6 +4,7 @@ import { adoptProperties, attributes, defineProperties, readAttributes } from '.
 import { listenToControls } from './controls.js';
 import { coreStatistics, loadCore } from './core.js';
 import { Loader } from './loader.js';
+import { wishOf } from './loading.js';
 import { parseFieldOfView, parseOrbit, parseTarget } from './orbit.js';
 import { Stage } from './stage.js';
 import { createShadow } from './template.js';
@@ -118,7 +119,7 @@ export class VitrineViewer extends HTMLElement {
     if (path === null || path.events.length === 0) return null;
     const points = path.events.map(({ position }) => position);
     const { distance } = this.#stage.orbit;
-    points.push(points.at(-1).map((value, i) => value + 0.3 * distance * path.direction[i]));
+    points.push(path.end ?? points.at(-1).map((value, i) => value + 0.3 * distance * path.direction[i]));
     const events = path.events.map((event) => ({ kind: event.kind, in: event.in, out: event.out }));
     return { events, points, screen: this.project(points), exited: path.exited };
   }
@@ -225,8 +226,9 @@ export class VitrineViewer extends HTMLElement {
     const isFirst = this.#values.src === undefined;
     this.#values = values;
     const stage = this.#stage;
-    const { technique, ior, preset, layers, steps, maxEvents, output, layer, exposure, samples } = values;
-    stage.glass = { technique, ior, preset, layers, steps, maxEvents, output, layer, samples, exposure: Math.log2(exposure), transparent: !this.hasAttribute('skybox-image') };
+    const { technique, ior, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, samples } = values;
+    stage.cameraIndex = values.cameraIndex;
+    stage.glass = { technique, ior, fresnel, preset, layers, steps, maxEvents, output, layer, samples, exposure: Math.log2(exposure), transparent: !this.hasAttribute('skybox-image') };
     stage.quality.mode = values.quality;
 
     this.#access.describe(values);
@@ -235,7 +237,7 @@ export class VitrineViewer extends HTMLElement {
     if (values.poster !== '' && img.getAttribute('src') !== values.poster) img.src = values.poster;
     this.#showPoster();
 
-    if (isFirst || ['camera-orbit', 'camera-target', 'field-of-view'].some((name) => changed.has(name))) {
+    if (isFirst || ['camera-orbit', 'camera-target', 'field-of-view', 'camera-index'].some((name) => changed.has(name))) {
       problems.push(...this.#placeCamera());
       this.#changedCamera('none');
     }
@@ -245,7 +247,7 @@ export class VitrineViewer extends HTMLElement {
     if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
     this.#updateSpin();
     stage.invalidate();
-    if (['src', 'loading', 'environment-image', 'skybox-image'].some((name) => changed.has(name))) this.#load();
+    if (['src', 'objects', 'loading', 'environment-image', 'skybox-image'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */
@@ -254,7 +256,7 @@ export class VitrineViewer extends HTMLElement {
     const attempts = [
       () => orbit.place(parseOrbit(this.cameraOrbit)),
       () => orbit.aim(parseTarget(this.cameraTarget)),
-      () => (orbit.fieldOfView = parseFieldOfView(this.fieldOfView)),
+      () => (orbit.wantedFieldOfView = parseFieldOfView(this.fieldOfView)),
     ];
     const problems = [];
     for (const attempt of attempts) {
@@ -279,22 +281,25 @@ export class VitrineViewer extends HTMLElement {
     const core = loadCore(VitrineViewer);
     core.catch(() => {}); // said below
     const { scene } = this.#stage;
-    if (src === '') {
+    const model = this.#wish;
+    if (model.url === '') {
       this.#isLoaded = this.#hasFrame = false;
-      scene.model = null;
-      this.#stage.close();
+      this.#stage.dropModel();
       this.#showPoster();
     }
-    if (scene.model?.url !== src) this.#isLoaded = false;
-    this.#say('model', '');
-    this.#say('environment', '');
+    if (scene.model?.url !== model.url) this.#isLoaded = false;
+    for (const cause of ['model', 'environment', 'pictures']) this.#say(cause, '');
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
-    if (!(await this.#loader.load({ environment, model: src }, scene))) return;
+    if (!(await this.#loader.load({ environment: { url: environment }, model }, scene))) return;
     try {
       this.#stage.core = await core;
     } catch (reason) {
       this.#fail('loadfailure', 'model', `The renderer cannot be loaded: ${reason.message}`, reason);
     }
+  }
+
+  get #wish() {
+    return wishOf(this.#values.src, this.#values.objects);
   }
 
   #showProgress(value) {
@@ -319,6 +324,7 @@ export class VitrineViewer extends HTMLElement {
         if (kind === 'model') this.#loader.progress?.advance(0.95);
       },
       rejected: (kind, sentence) => this.#fail('loadfailure', kind, sentence),
+      warned: (cause, sentence) => (sentence ? this.#fail('invalid', cause, sentence) : this.#say(cause, '')),
       frame: (milliseconds) => this.#onFrame(milliseconds),
       scaled: (detail) => this.#dispatch('render-scale', detail),
       turned: () => this.#changedCamera('none'),
@@ -333,7 +339,7 @@ export class VitrineViewer extends HTMLElement {
     this.#hasFrame = true;
     this.#showPoster();
     this.#dispatch('frame', { milliseconds });
-    if (this.#isLoaded || this.#stage.scene.model?.url !== this.#values.src) return;
+    if (this.#isLoaded || this.#stage.scene.model?.url !== this.#wish.url) return;
     this.#isLoaded = true;
     this.#loader.progress?.advance(1);
     this.#access.follow();

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the demo's pictures anew: thumbnails of the shapes and the reference picture, all by the ray tracer.
+# Makes the demo's pictures anew: thumbnails of the shapes and the reference picture by the ray tracer, scenes by technique exact.
 # Usage: web/demo/pictures/make.sh [VITRINE]
 set -eu
 vitrine=$(realpath "${1:-build/release/vitrine}")
@@ -9,6 +9,10 @@ for shape in sphere knot goblet bottle diamond; do
   draw "$shape" --samples 16 --resolution 112,112 --fov 38 -o "$shape.png"
 done
 draw torus --samples 16 --resolution 112,112 --camera 0.9,2.3,2.6 --target 0,0,0 --fov 45 -o torus.png
+# The scenes of state.js.
+scene() { "$vitrine" render "${@:2}" -t exact --preset high --environment studio --samples 64 --resolution 112,112 -o "$1.png"; }
+scene behind cube --object knot:at=0,0,-2 --camera 0.65,0.66,3.05 --target 0,0,-0.5 --fov 38
+scene tumbler tumbler --object water:ior=1.333 --object plane:checker=24,scale=4,at=0,0,-3 --camera 0.5,0.75,2.95 --target 0,0,0 --fov 45
 models=$(mktemp -d)
 trap 'rm -r "$models"' EXIT
 node ../models.mjs "$models" # the bunny needs `npm ci` in tests/
