@@ -98,8 +98,10 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     }
     // The triangle lies farther than every surface and as far as no surface: the depth test, before the
     // shader, leaves out the background.
-    const GLuint background[4] = {0, 0, 0, VT_PATH_BACKGROUND};
+    const GLuint background[4] = {0, 0, 0, VT_PATH_BACKGROUND}, none[4] = {0};
     gl->ClearBufferuiv(GL_COLOR, 0, background);
+    gl->ClearBufferuiv(GL_COLOR, 2,
+                       none); // light aside: pixels without a path have none for branches to follow
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_GREATER);
     gl->DepthMask(GL_FALSE);
