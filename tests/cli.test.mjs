@@ -236,6 +236,177 @@ describe('bad input', () => {
   });
 });
 
+/** Renders what must work, and gives the picture back. */
+function picture(name, ...args) {
+  const result = vitrine(['render', ...args, '-o', name]);
+  assert.equal(result.code, 0, result.error);
+  return readFileSync(join(folder, name));
+}
+
+describe('objects', () => {
+  const render = (...args) => ['render', ...args, ...small];
+  const object = (...specs) => specs.flatMap((spec) => ['--object', spec]);
+
+  test('the order of objects does not matter', () => {
+    const specs = ['cube:at=0,0,0.6', 'knot:at=0,0,-2,scale=0.8,rotate=0,40,0', 'plane:checker=4,at=0,0,-4', 'sphere:scale=0.4,at=0,0,0.6,ior=1'];
+    const first = picture('first.png', ...object(...specs), ...small, '--directions', 'first.pfm');
+    const second = picture('second.png', ...object(...specs.reverse()), ...small, '--directions', 'second.pfm');
+    assert.ok(first.equals(second));
+    assert.ok(readFileSync(join(folder, 'first.pfm')).equals(readFileSync(join(folder, 'second.pfm'))));
+    // A model by itself is the first object.
+    assert.ok(picture('a.png', 'cube', ...object('sphere:at=2,0,0'), ...small).equals(picture('b.png', ...object('cube', 'sphere:at=2,0,0'), ...small)));
+  });
+
+  test('keys do what they say', () => {
+    const plain = picture('plain.png', ...object('cube'), ...small, '--camera', '1,1,4');
+    const changes = ['ior=1.2', 'at=0.3,0,0', 'scale=0.7', 'scale=1,0.7,1', 'rotate=0,30,0', 'tint=1,0.5,0.5', 'absorb=1,0.5,0.5', 'opaque', 'colour=1,0,0', 'checker'];
+    const drawn = changes.map((keys, i) => picture(`key-${i}.png`, ...object(`cube:${keys}`), ...small, '--camera', '1,1,4', '--target', '0,0,0'));
+    drawn.forEach((png, i) => {
+      assert.ok(!png.equals(plain), changes[i]);
+      for (let k = 0; k < i; ++k) assert.ok(!png.equals(drawn[k]), `${changes[i]} and ${changes[k]}`);
+    });
+    const same = ['at=0,0,0', 'scale=1', 'ior=1.5', 'priority=3', 'glass', 'distance=2', 'colour=1,0,0,glass', 'absorb=0.5,0.5,0.5,distance=0'];
+    for (const keys of same) {
+      assert.ok(picture('same.png', ...object(`cube:${keys}`), ...small, '--camera', '1,1,4', '--target', '0,0,0').equals(plain), keys);
+    }
+  });
+
+  test('what overlaps: the highest priority counts', () => {
+    const pair = (one, other) => picture('pair.png', ...object(`sphere${one}`, `cube:at=0.8,0,0,ior=2${other}`), ...small);
+    const smaller = pair('', ''); // the cube's volume
+    assert.ok(smaller.equals(pair('', ',priority=1')));
+    assert.ok(!smaller.equals(pair(':priority=1', '')));
+    assert.ok(smaller.equals(pair(':priority=1', ',priority=2')));
+  });
+
+  test('keys that are wrong', () => {
+    const bad = {
+      'sphere:size=2': ["--object 'sphere:size=2' has the key 'size', which is unknown; the keys are ior, at, scale,", 'roughness and checker'],
+      'sphere:': ["the key ''"],
+      'sphere:ior=5': ["ior is '5'; it must be a number from 0.25 to 4"],
+      'sphere:ior=0.2': ["ior is '0.2'"],
+      'sphere:ior': ["ior is ''"],
+      'sphere:ior=glass': ["ior is 'glass'"],
+      'sphere:at=1,2': ["at is '1,2'; it must be three numbers"],
+      'sphere:at=1,2,3,4': ["at is '1,2,3,4'"],
+      'sphere:rotate=90': ["rotate is '90'; it must be three numbers"],
+      'sphere:scale=0': ["scale is '0'; it must be one number or three", 'none of them 0'],
+      'sphere:scale=1,0,1': ["scale is '1,0,1'"],
+      'sphere:scale=1,2': ["scale is '1,2'"],
+      'sphere:priority=1.5': ["priority is '1.5'; it must be a whole number"],
+      'sphere:tint=1,2,1': ["tint is '1,2,1'; it must be three numbers from 0 to 1"],
+      'sphere:colour=nan,0,0': ["colour is 'nan,0,0'"],
+      'sphere:distance=-1': ["distance is '-1'"],
+      'sphere:opaque=1': ["opaque is '1'; it must be given without a value"],
+      'sphere:checker=1,2': ["checker is '1,2'; it must be without a value or a number"],
+      'sphere:opaque,glass': ['is opaque and glass; give one of them'],
+      'octopus:ior=1.4': ["'octopus' is neither a built-in shape", 'vitrine list'],
+      'nowhere.glb': ["'nowhere.glb' is neither a built-in shape", 'nor a file'],
+      ':ior=1.5': ["--object is ':ior=1.5'; it must be NAME or NAME:key=value"],
+      '': ["--object is ''"],
+    };
+    for (const [spec, parts] of Object.entries(bad)) refuses(render(...object(spec)), parts);
+    refuses(render(...object(...Array(65).fill('sphere'))), ["'sphere' is one too many; at most 64"]);
+    refuses(render('sphere', '--multi', 'some'), ["--multi is 'some'; it must be any or ordered"]);
+  });
+
+  test('an open sheet of glass within glass', () => {
+    const output = join(folder, 'sheet-in-cube.png');
+    const result = vitrine([...render(...object('cube:scale=4', 'plane:glass')), '-o', output]);
+    assert.equal(result.code, 1);
+    assert.match(result.error, /^vitrine: scene: object 1 \('plane'\) has no volume \(4 open edges\) and lies inside object 0 \('cube'\), [^\n]+\n$/m);
+    assert.ok(!existsSync(output));
+    assert.equal(vitrine([...render(...object('cube:scale=4', 'plane:glass,at=0,0,-3')), '-o', output]).code, 0);
+    assert.equal(vitrine([...render(...object('cube:scale=4', 'plane')), '-o', output]).code, 0);
+  });
+
+  test('the reference draws the same objects', () => {
+    const args = [...object('sphere', 'sphere:scale=0.4,colour=0.9,0.3,0.1', 'plane:at=0,0,-2,checker'), ...small, '-e', 'checker'];
+    picture('objects.png', ...args, '--directions', 'objects.pfm');
+    picture('traced.png', ...args, '-t', 'reference', '--directions', 'traced.pfm');
+    const compared = (a, b) => JSON.parse(vitrine(['compare', a, b, '--json']).text);
+    const { flip } = compared('objects.png', 'traced.png'), { within1, lost } = compared('objects.pfm', 'traced.pfm');
+    assert.ok(flip < 0.05, `FLIP ${flip}`);
+    assert.ok(within1 > 0.97 && lost < 0.01, `${within1} within 1 degree, ${lost} lost`);
+  });
+});
+
+describe('scenes in files', () => {
+  const render = (...args) => ['render', ...args, ...small];
+  const scene = (name, edit) => {
+    const parts = gltf(cube());
+    edit(parts.json);
+    return write(name, glb(parts));
+  };
+
+  test('two nodes that share a mesh are two objects', () => {
+    const one = scene('one.glb', () => {});
+    const two = scene('two.glb', (json) => {
+      json.nodes = [{ mesh: 0, translation: [-1.5, 0, 0] }, { mesh: 0, translation: [1.5, 0.5, 0], scale: [0.5, 0.5, 0.5] }];
+      json.scenes[0].nodes = [0, 1];
+    });
+    const drawn = picture('two.png', two, ...small);
+    assert.ok(!drawn.equals(picture('one.png', one, ...small)));
+    const apart = ['--object', `${one}:at=-1.5,0,0`, '--object', `${one}:at=1.5,0.5,0,scale=0.5`];
+    assert.ok(drawn.equals(picture('apart.png', ...apart, ...small)));
+    assert.ok(!drawn.equals(picture('ior.png', '--object', `${two}:ior=2`, ...small)), 'keys hold for all objects of a file');
+  });
+
+  test('cameras', () => {
+    const model = scene('camera.glb', (json) => {
+      json.cameras = [{ type: 'perspective', perspective: { yfov: Math.PI / 6, znear: 0.1 } }];
+      json.nodes = [{ mesh: 0 }, { camera: 0, translation: [0, 0, 9] }];
+      json.scenes[0].nodes = [0, 1];
+    });
+    const own = picture('own.png', model, ...small, '--camera-index', '0');
+    assert.ok(!own.equals(picture('framed.png', model, ...small)));
+    const given = ['--camera', '0,0,9', '--target', '0,0,0'];
+    assert.ok(own.equals(picture('given.png', model, ...small, ...given, '--fov', '30')));
+    assert.ok(!own.equals(picture('wide.png', model, ...small, '--camera-index', '0', '--fov', '60')), '--fov goes before it');
+    refuses(render('sphere', '--camera-index', '0'), ['--camera-index is 0, but there are 0 cameras', 'leave it out']);
+    refuses(render('sphere', '--camera-index', '-1'), ['--camera-index is -1; it must be a whole number from 0']);
+    refuses(render('sphere', '--camera-index', 'front'), ["--camera-index is 'front'"]);
+    const result = vitrine([...render(model, '--camera-index', '1'), '-o', 'no-camera.png']);
+    assert.equal(result.code, 1);
+    assert.match(result.error, /^vitrine: --camera-index is 1, but there are 1 cameras in what is drawn; the first is 0$/m);
+    assert.ok(!existsSync(join(folder, 'no-camera.png')));
+  });
+
+  test('nodes in a circle, flat nodes', () => {
+    const circle = scene('circle.glb', (json) => {
+      json.nodes = [{ children: [1] }, { mesh: 0, children: [0] }];
+    });
+    refuses(render(circle), ["'circle.glb'", 'is reached twice, but nodes must form a tree without cycles']);
+    const flat = scene('flat.glb', (json) => (json.nodes = [{ mesh: 0, scale: [1, 0, 1], name: 'lid' }]));
+    refuses(render(flat), ["'flat.glb'", "'lid'", 'is scaled by 1, 0, 1', 'give it and those above it a scale other than 0']);
+    const above = scene('above.glb', (json) => (json.nodes = [{ scale: [0, 1, 1], children: [1] }, { mesh: 0 }]));
+    refuses(render(above), ["'above.glb'", 'node 1', 'a scale other than 0']);
+  });
+});
+
+describe('Fresnel reflection', () => {
+  test('is drawn unless it is left out', () => {
+    const args = ['knot', ...small];
+    const drawn = picture('with.png', ...args);
+    assert.ok(drawn.equals(picture('asked.png', ...args, '--fresnel')));
+    assert.ok(!drawn.equals(picture('without.png', ...args, '--no-fresnel')));
+    refuses(['render', ...args, '--fresnel', '--no-fresnel'], ['--fresnel and --no-fresnel contradict each other; give one']);
+  });
+
+  test('directions are those of strict paths unless --fresnel is given', () => {
+    const directions = (name, ...args) => {
+      picture(`${name}.png`, 'knot', ...small, '--directions', `${name}.pfm`, ...args);
+      return readFileSync(join(folder, `${name}.pfm`));
+    };
+    const strict = directions('default');
+    assert.ok(strict.equals(directions('no', '--no-fresnel')));
+    assert.ok(strict.equals(directions('more', '--samples', '4')));
+    assert.ok(!strict.equals(directions('yes', '--fresnel')));
+    const defaultPicture = readFileSync(join(folder, 'default.png'));
+    assert.ok(defaultPicture.equals(readFileSync(join(folder, 'yes.png'))), 'the picture is the same');
+  });
+});
+
 describe('measuring', () => {
   const draw = (name, ...args) => {
     const result = vitrine(['render', 'knot', ...small, '-o', `${name}.png`, '--directions', `${name}.pfm`, ...args]);
@@ -247,8 +418,8 @@ describe('measuring', () => {
     draw('drawn');
     const same = JSON.parse(vitrine(['compare', 'truth.png', 'truth.png', '--json']).text);
     assert.deepEqual([same.psnr, same.ssim, same.flip, same.pixelsOver], [null, 1, 0, 0]);
-    const picture = JSON.parse(vitrine(['compare', 'drawn.png', 'truth.png', '--json', '--difference', 'map.png']).text);
-    assert.ok(picture.flip > 0 && picture.flip < 0.1, `FLIP ${picture.flip}`);
+    const pictures = JSON.parse(vitrine(['compare', 'drawn.png', 'truth.png', '--json', '--difference', 'map.png']).text);
+    assert.ok(pictures.flip > 0 && pictures.flip < 0.1, `FLIP ${pictures.flip}`);
     assert.ok(existsSync(join(folder, 'map.png')));
     const directions = JSON.parse(vitrine(['compare', 'drawn.pfm', 'truth.pfm', '--json']).text);
     assert.ok(directions.within1 > 0.6, `${directions.within1} within 1 degree`);

@@ -6,7 +6,7 @@
 #include "shaders.h"
 
 // What no path has gone through.
-static const GLuint background[4] = {0, 0, 0, VT_PATH_BACKGROUND};
+static const GLuint background[4] = {0, 0, 0, VT_PATH_BACKGROUND}, nothing[4] = {0};
 
 /// A program with a chunk more behind octahedral.glsl and path.glsl.
 static vtResult createWith(const vtGL* gl, const vtProgramDef* base, const vtChunk* chunk, GLuint* program,
@@ -105,6 +105,8 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     // The triangle lies farther than every surface and as far as no surface: the depth test, before the
     // shader, leaves out the background.
     gl->ClearBufferuiv(GL_COLOR, 0, background);
+    gl->ClearBufferuiv(GL_COLOR, 2,
+                       nothing); // pixels without a path have no light aside for branches to follow
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_GREATER);
     gl->DepthMask(GL_FALSE);

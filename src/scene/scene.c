@@ -246,11 +246,17 @@ static vtResult placeObject(const vtScene* scene, uint32_t index, vtPlacedObject
 typedef struct Rank {
     bool opaque;
     int priority;
-    double volume;
+    double volume; // steps of a logarithm
     vtVec3 low, high;
     float ior;
     vtPlacedObject placed;
 } Rank;
+
+/// Instances turned another way have the same volume but for rounding: it counts in steps of 0.03 %.
+static double roundVolume(double volume)
+{
+    return volume > 0.0 ? round(2048.0 * log2(volume)) : -HUGE_VAL;
+}
 
 static int compareNumbers(double a, double b)
 {
@@ -263,9 +269,7 @@ static int compareRanks(const void* left, const void* right)
     const double differences[] = {
         (double)(a->opaque - b->opaque),
         compareNumbers((double)b->priority, (double)a->priority),
-        // Instances turned another way have the same volume but for rounding.
-        fabs(a->volume - b->volume) > 1e-4 * (a->volume + b->volume) ? compareNumbers(a->volume, b->volume)
-                                                                     : 0.0,
+        compareNumbers(a->volume, b->volume),
         compareNumbers((double)a->low.x, (double)b->low.x),
         compareNumbers((double)a->low.y, (double)b->low.y),
         compareNumbers((double)a->low.z, (double)b->low.z),
@@ -328,7 +332,7 @@ vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t*
         if (result == vt_ok) {
             rank->opaque = rank->placed.material->opaque;
             rank->priority = scene->objects[i].priority;
-            rank->volume = rank->opaque ? 0.0 : volumeOf(&rank->placed);
+            rank->volume = roundVolume(rank->opaque ? 0.0 : volumeOf(&rank->placed));
             rank->low = rank->placed.low;
             rank->high = rank->placed.high;
             rank->ior = rank->placed.material->ior;

@@ -548,6 +548,17 @@ static void badFramesDrawNothing(void** state)
     frame.firstSample = -1;
     assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
     assert_string_equal(error.message, "first-sample is -1; it must be from 0 to 1e+06");
+    frame = smallFrame(vt_techniqueExact);
+    frame.branches = VT_MAX_BRANCHES + 1;
+    assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
+    assert_string_equal(error.message, "branches is 5; it must be from -1 to 4");
+    frame.branches = -2;
+    assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
+    frame.branches = -1;
+    assert_ok(vtValidateFrame(&frame, &error), error);
+    frame.multi = (vtMulti)2;
+    assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
+    assert_string_equal(error.message, "multi is 2; it must be from 0 to 1");
 }
 
 int main(void)
