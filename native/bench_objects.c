@@ -33,7 +33,8 @@ static void measureDepth(const vtScene* scene, const vtCameraFrame* camera, floa
 vtResult vtCreateCopies(const vtScene* scene, const vtView* view, vtSweep sweep, vtCopies* copies,
                         vtError* error)
 {
-    const float halfSide = vtLength(vtSub(view->target, view->eye)) * tanf(0.5f * view->fovY * VT_PI / 180.0f);
+    const float halfSide =
+        vtLength(vtSub(view->target, view->eye)) * tanf(0.5f * view->fovY * VT_PI / 180.0f);
     *copies = (vtCopies){.objectCount = scene->objectCount,
                          .view = vtView_Zoom(*view, side),
                          .spacing = 2.0f * halfSide,
