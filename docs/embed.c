@@ -1,4 +1,4 @@
-// Vitrine in a program of your own, in 60 lines: make a context current, create a renderer, give it a mesh
+// Vitrine in a program of your own, in 70 lines: make a context current, create a renderer, give it a scene
 // and an environment, draw. Only vitrine.h is needed; the context here comes from native/context.h so that
 // the example runs anywhere, your program has its own (GLFW, SDL, EGL, a browser canvas).
 #include <stdio.h>
@@ -11,6 +11,20 @@ static int fail(const char* doing, const vtError* error)
 {
     fprintf(stderr, "%s: %s\n", doing, error->message);
     return 1;
+}
+
+/// Adds a built-in shape to a scene.
+static vtResult add(vtScene* scene, const char* shape, vtMaterial material, float z, vtError* error)
+{
+    vtMesh mesh;
+    vtScene added = {0};
+    vtTransform place = vtIdentityTransform();
+    place.rows[2][3] = z;
+    vtResult result = vtCreateShape(shape, &mesh, error);
+    if (result == vt_ok) {
+        result = vtCreateMeshScene(&mesh, &material, &added, error);
+    }
+    return result == vt_ok ? vtScene_Append(scene, &added, &place, error) : result;
 }
 
 int main(int argc, char** argv)
@@ -31,11 +45,16 @@ int main(int argc, char** argv)
     }
 
     // 3. What to draw. The renderer copies; nothing needs to be kept.
-    vtMesh mesh;
+    vtScene scene = {0};
     vtEnvironment environment;
-    if (vtCreateShape("goblet", &mesh, &error) != vt_ok ||
+    vtMaterial glass = vtDefaultMaterial(), clay = vtDefaultMaterial();
+    glass.ior = 1.52f;
+    clay.opaque = true;
+    clay.baseColor = (vtVec3){0.8f, 0.3f, 0.1f};
+    if (add(&scene, "goblet", glass, 0.0f, &error) != vt_ok ||
+        add(&scene, "knot", clay, -2.5f, &error) != vt_ok ||
         vtCreateEnvironment("studio", &environment, &error) != vt_ok ||
-        vtRenderer_SetMesh(renderer, &mesh, &error) != vt_ok ||
+        vtRenderer_SetScene(renderer, &scene, &error) != vt_ok ||
         vtRenderer_SetEnvironment(renderer, &environment, &error) != vt_ok) {
         return fail("scene", &error);
     }
@@ -44,8 +63,7 @@ int main(int argc, char** argv)
     vtFrame frame = vtDefaultFrame();
     frame.width = width;
     frame.height = height;
-    frame.view = vtFrameMesh(&mesh, 45.0f, (float)width / height);
-    frame.ior = 1.52f;
+    frame.view = vtFrameScene(&scene, 45.0f, (float)width / height);
     static uint8_t pixels[width * height * 4];
     if (vtRenderer_DrawImage(renderer, &frame, pixels, &error) != vt_ok) {
         return fail("draw", &error);
@@ -62,7 +80,7 @@ int main(int argc, char** argv)
 
     // 5. In the reverse order, with the context still current.
     vtDestroyRenderer(renderer);
-    vtDestroyMesh(&mesh);
+    vtDestroyScene(&scene);
     vtDestroyEnvironment(&environment);
     vtDestroyContext(&context);
     return 0;

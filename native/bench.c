@@ -14,6 +14,15 @@
 #include "technique.h"
 #include "trace.h"
 
+const char* vtSweepName(vtSweep sweep)
+{
+    static const char* const names[vt_sweepCount] = {
+        [vt_sweepNone] = "",           [vt_sweepTriangles] = "triangles", [vt_sweepResolution] = "resolution",
+        [vt_sweepObjects] = "objects", [vt_sweepDepth] = "depth",
+    };
+    return names[sweep];
+}
+
 vtTiming vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, int row)
 {
     for (int i = 0; i < bench->rowCount; ++i) {
@@ -75,7 +84,9 @@ static vtResult setRows(const vtOptions* options, const vtSession* session, vtBe
                : vtFail(error, vt_errorArgument, "--technique names none; see 'vitrine list'");
 }
 
-static vtResult runCase(const vtOptions* options, vtSession* session, vtBench* bench, vtError* error)
+/// `copies` of the model are in the session's scene.
+static vtResult runCase(const vtOptions* options, vtSession* session, int copies, vtBench* bench,
+                        vtError* error)
 {
     vtBenchCase* measured = &bench->cases[bench->caseCount];
     vtResult result = setRows(options, session, bench, measured, error);
@@ -83,9 +94,12 @@ static vtResult runCase(const vtOptions* options, vtSession* session, vtBench* b
         return result;
     }
     measured->triangles = (int)vtCountTriangles(&session->input.scene);
+    measured->copies = copies;
     measured->width = options->size[0];
     measured->height = options->size[1];
-    fprintf(stderr, "vitrine: bench: %s, %d triangles, %d x %d\n", bench->model, measured->triangles,
+    char times[24] = "";
+    snprintf(times, sizeof times, copies > 1 ? "%d times " : "", copies);
+    fprintf(stderr, "vitrine: bench: %s%s, %d triangles, %d x %d\n", times, bench->model, measured->triangles,
             measured->width, measured->height);
     bench->ior = vtCommonIor(&session->input);
     bench->maxEvents = measured->rows[0].frame.maxEvents;
@@ -103,7 +117,7 @@ static vtResult sweepTriangles(const vtOptions* options, vtSession* session, vtB
         each.triangles = counts[i];
         result = vtSession_SetModel(session, &each, error);
         if (result == vt_ok) {
-            result = runCase(&each, session, bench, error);
+            result = runCase(&each, session, 1, bench, error);
         }
     }
     return result;
@@ -115,9 +129,54 @@ static vtResult sweepResolution(const vtOptions* options, vtSession* session, vt
     for (int side = 256; side <= 2048 && result == vt_ok; side *= 2) {
         vtOptions each = *options;
         each.size[0] = each.size[1] = side;
-        result = runCase(&each, session, bench, error);
+        result = runCase(&each, session, 1, bench, error);
     }
     return result;
+}
+
+static vtResult sweepObjects(const vtOptions* options, vtSession* session, vtBench* bench, vtError* error)
+{
+    vtOptions each = *options;
+    vtFrame frame;
+    vtCopies copies;
+    each.technique = vtTechnique_Info(vt_techniqueExact)->id; // only the view counts
+    vtResult result = vtMakeFrame(&each, &session->input, &frame, error);
+    if (result == vt_ok) {
+        result = vtCreateCopies(&session->input.scene, &frame.view, bench->sweep, &copies, error);
+    }
+    if (result != vt_ok) {
+        return result;
+    }
+    each.technique = options->technique;
+    each.camera = copies.view.eye;
+    each.target = copies.view.target;
+    each.hasCamera = each.hasTarget = true;
+    for (int count = 1; count <= vt_maxCopies && result == vt_ok; count *= 2) {
+        result = vtCopies_Place(&copies, count, &session->input.scene, error);
+        if (result == vt_ok) {
+            result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
+        }
+        if (result == vt_ok) {
+            result = runCase(&each, session, count, bench, error);
+        }
+    }
+    vtDestroyCopies(&copies);
+    return result;
+}
+
+static vtResult runCases(const vtOptions* options, vtSession* session, vtBench* bench, vtError* error)
+{
+    switch (bench->sweep) {
+    case vt_sweepTriangles:
+        return sweepTriangles(options, session, bench, error);
+    case vt_sweepResolution:
+        return sweepResolution(options, session, bench, error);
+    case vt_sweepObjects:
+    case vt_sweepDepth:
+        return sweepObjects(options, session, bench, error);
+    default:
+        return runCase(options, session, 1, bench, error);
+    }
 }
 
 typedef void WriteFcn(const vtBench* bench, FILE* out);
@@ -152,22 +211,23 @@ static vtResult report(const vtOptions* options, const vtBench* bench, vtError* 
     return result;
 }
 
-static vtResult checkOptions(const vtOptions* options, vtError* error)
+static vtResult checkOptions(const vtOptions* options, vtSweep sweep, vtError* error)
 {
-    const char* sweep = options->sweep;
-    if (sweep != NULL && strcmp(sweep, "triangles") != 0 && strcmp(sweep, "resolution") != 0) {
-        return vtFail(error, vt_errorArgument, "--sweep is '%s'; it must be triangles or resolution", sweep);
+    if (sweep == vt_sweepCount) {
+        return vtFail(error, vt_errorArgument,
+                      "--sweep is '%s'; it must be objects, depth, triangles or resolution", options->sweep);
     }
-    if (options->plot != NULL && sweep == NULL) {
-        return vtFail(error, vt_errorArgument, "--plot draws a sweep; add --sweep triangles or resolution");
+    if (options->plot != NULL && sweep == vt_sweepNone) {
+        return vtFail(error, vt_errorArgument,
+                      "--plot draws a sweep; add --sweep objects, depth, triangles or resolution");
     }
-    const bool counted = options->triangles > 0 || (sweep != NULL && *sweep == 't');
+    const bool counted = options->triangles > 0 || sweep == vt_sweepTriangles;
     if (counted && options->model == NULL && options->objectCount > 0) {
         return vtFail(error, vt_errorArgument,
                       "%s concerns the model named by itself; name knot or torus without --object",
                       options->triangles > 0 ? "--triangles" : "--sweep triangles");
     }
-    if (sweep != NULL && *sweep == 't' && options->model != NULL && !vtHasFineShape(options->model)) {
+    if (sweep == vt_sweepTriangles && options->model != NULL && !vtHasFineShape(options->model)) {
         return vtFail(
             error, vt_errorArgument,
             "--sweep triangles needs a model of any number of triangles, knot or torus; '%s' is not",
@@ -176,10 +236,22 @@ static vtResult checkOptions(const vtOptions* options, vtError* error)
     return vt_ok;
 }
 
+/// vt_sweepCount where there is none of that name.
+static vtSweep findSweep(const char* name)
+{
+    int sweep = vt_sweepNone;
+    while (name != NULL && sweep < vt_sweepCount &&
+           (sweep == vt_sweepNone || strcmp(name, vtSweepName((vtSweep)sweep)) != 0)) {
+        ++sweep;
+    }
+    return (vtSweep)sweep;
+}
+
 vtResult vtRunBench(const vtOptions* given, vtError* error)
 {
     vtOptions options = *given;
-    vtResult result = checkOptions(&options, error);
+    const vtSweep sweep = findSweep(options.sweep);
+    vtResult result = checkOptions(&options, sweep, error);
     if (result != vt_ok) {
         return result;
     }
@@ -187,6 +259,9 @@ vtResult vtRunBench(const vtOptions* given, vtError* error)
     snprintf(threads, sizeof threads, "%d", options.threads);
     if (options.threads > 0) {
         setenv("LP_NUM_THREADS", threads, 1); // before llvmpipe starts
+    }
+    if (vtSweepsObjects(sweep) && strcmp(options.technique, VT_BENCH_TECHNIQUES) == 0) {
+        options.technique = vtTechnique_Info(vt_techniqueExact)->id; // bvh draws one object
     }
     options.innerDistances = strstr(options.technique, "wyman") != NULL;
     vtSession session;
@@ -202,16 +277,14 @@ vtResult vtRunBench(const vtOptions* given, vtError* error)
     char models[1024];
     vtNameModels(&options, models, sizeof models);
     bench->model = models;
-    bench->sweep = options.sweep;
+    bench->sweep = sweep;
     bench->preset = options.preset;
     bench->threads = options.threads;
     bench->processors = (int)sysconf(_SC_NPROCESSORS_ONLN);
     const vtRendererInfo info = vtRenderer_Info(session.renderer);
     snprintf(bench->device, sizeof bench->device, "%s", info.device);
     snprintf(bench->version, sizeof bench->version, "%s", info.version);
-    result = options.sweep == NULL   ? runCase(&options, &session, bench, error)
-             : *options.sweep == 't' ? sweepTriangles(&options, &session, bench, error)
-                                     : sweepResolution(&options, &session, bench, error);
+    result = runCases(&options, &session, bench, error);
     if (result == vt_ok) {
         result = report(&options, bench, error);
     }

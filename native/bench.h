@@ -8,11 +8,30 @@
 #include "session.h"
 #include "timing.h"
 
-enum { vt_benchStages = 6, vt_maxBenchRows = 12, vt_maxBenchCases = 8 };
+enum { vt_benchStages = 7, vt_maxBenchRows = 12, vt_maxBenchCases = 8 };
 
-/// Name of a stage as vtStageFcn gives it: surface peel cube merge refract present; index below
+/// Name of a stage as vtStageFcn gives it: surface peel cube merge refract shade present; index below
 /// vt_benchStages.
 const char* vtBenchStage(int index);
+
+/// What differs from case to case.
+typedef enum vtSweep {
+    vt_sweepNone = 0,
+    vt_sweepTriangles,
+    vt_sweepResolution,
+    vt_sweepObjects, ///< copies side by side, each as large in the picture as one alone
+    vt_sweepDepth,   ///< copies one behind the other, all as large in the picture
+    vt_sweepCount,
+} vtSweep;
+
+/// "triangles", ...; "" without a sweep.
+const char* vtSweepName(vtSweep sweep);
+
+/// Does it go through numbers of objects?
+static inline bool vtSweepsObjects(vtSweep sweep)
+{
+    return sweep == vt_sweepObjects || sweep == vt_sweepDepth;
+}
 
 /// One technique.
 typedef struct vtBenchRow {
@@ -30,6 +49,7 @@ typedef struct vtBenchRow {
 /// All techniques on one mesh at one size.
 typedef struct vtBenchCase {
     int triangles, width, height;
+    int copies; ///< of the model, 1 without a sweep over them
     int rounds;
     size_t paths;       ///< pixels that see glass
     double eventsAPath; ///< of the true paths, mean
@@ -42,7 +62,7 @@ typedef struct vtBenchCase {
 
 typedef struct vtBench {
     const char* model; ///< and further objects
-    const char* sweep; ///< "triangles", "resolution" or NULL
+    vtSweep sweep;
     const char* preset;
     float ior; ///< of all glass; 0 where objects differ
     int maxEvents;
@@ -60,6 +80,24 @@ vtTiming vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, in
 /// Measures the session's scene as the case whose rows hold their frames; the reference takes its turns.
 vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtBench* bench,
                          vtBenchCase* measured, vtError* error);
+
+/// Fits the eye and the copies of what the session's scene has to a sweep over objects.
+typedef struct vtCopies {
+    vtObject* objects; ///< of one copy
+    uint32_t objectCount;
+    vtView view;   ///< of all cases
+    float spacing; ///< side by side: of the grid, world units
+    float growth;  ///< one behind the other: of each, about the eye, over the one before it
+    vtSweep sweep;
+} vtCopies;
+
+/// vt_maxCopies copies fill the picture that the one of `view` fills by itself.
+enum { vt_maxCopies = 16 };
+vtResult vtCreateCopies(const vtScene* scene, const vtView* view, vtSweep sweep, vtCopies* copies,
+                        vtError* error);
+/// Puts that many in place of the scene's objects, 1 to vt_maxCopies; they share its meshes.
+vtResult vtCopies_Place(const vtCopies* copies, int count, vtScene* scene, vtError* error);
+void vtDestroyCopies(vtCopies* copies);
 
 void vtBench_WriteTable(const vtBench* bench, FILE* out);
 void vtBench_WriteJson(const vtBench* bench, FILE* out);

@@ -7,8 +7,8 @@
 
 static const double timeLimit = 40.0; // seconds a case
 
-static const char* const stageNames[vt_benchStages] = {"surface", "peel",    "cube",
-                                                       "merge",   "refract", "present"};
+static const char* const stageNames[vt_benchStages] = {"surface", "peel",  "cube",   "merge",
+                                                       "refract", "shade", "present"};
 
 const char* vtBenchStage(int index)
 {

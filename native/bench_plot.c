@@ -1,4 +1,4 @@
-// A sweep as a picture: time over triangles or pixels, both logarithmic, one line a technique.
+// A sweep as a picture: time over triangles, pixels or objects, both logarithmic, one line a technique.
 #include <math.h>
 #include <string.h>
 
@@ -8,13 +8,14 @@
 static const double width = 760.0, height = 460.0, left = 70.0, right = 150.0, top = 20.0, bottom = 50.0;
 
 typedef struct Axes {
-    double low[2], high[2]; // log10 of triangles or pixels, of milliseconds
+    double low[2], high[2]; // log10 of triangles, pixels or objects, of milliseconds
 } Axes;
 
 static double variable(const vtBench* bench, const vtBenchCase* measured)
 {
-    return strcmp(bench->sweep, "triangles") == 0 ? (double)measured->triangles
-                                                  : (double)measured->width * (double)measured->height;
+    return vtSweepsObjects(bench->sweep)       ? (double)measured->copies
+           : bench->sweep == vt_sweepTriangles ? (double)measured->triangles
+                                               : (double)measured->width * (double)measured->height;
 }
 
 /// Where processors draw, their time is what other programs disturb least.
@@ -81,16 +82,19 @@ static void writeGrid(const vtBench* bench, const Axes* axes, FILE* out)
                 "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#e6e6e6\"/><text x=\"%.1f\" y=\"%.1f\" "
                 "text-anchor=\"middle\">",
                 x, top, height - bottom, x, height - bottom + 18.0);
-        if (strcmp(bench->sweep, "triangles") == 0) {
-            fprintf(out, "%d</text>\n", measured->triangles);
-        } else {
+        if (bench->sweep == vt_sweepResolution) {
             fprintf(out, "%d x %d</text>\n", measured->width, measured->height);
+        } else {
+            fprintf(out, "%.0f</text>\n", variable(bench, measured));
         }
     }
     fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s, %s</text>\n",
             0.5 * (left + width - right), height - 8.0,
             takesProcessorTime(bench) ? "CPU time of a frame" : "time of a frame",
-            strcmp(bench->sweep, "triangles") == 0 ? "by triangles" : "by pixels");
+            bench->sweep == vt_sweepTriangles    ? "by triangles"
+            : bench->sweep == vt_sweepResolution ? "by pixels"
+            : bench->sweep == vt_sweepDepth      ? "by objects, one behind the other"
+                                                 : "by objects");
 }
 
 static void writeLine(const vtBench* bench, const Axes* axes, int row, double labelY, FILE* out)

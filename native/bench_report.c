@@ -25,15 +25,17 @@ static void writeHeader(const vtBench* bench, FILE* out)
     shortName(bench->model, name);
     const vtBenchCase* first = &bench->cases[0];
     fprintf(out, "`%s`", name);
-    if (bench->sweep == NULL || strcmp(bench->sweep, "triangles") != 0) {
+    if (bench->sweep != vt_sweepTriangles) {
         fprintf(out, ", %d triangles", first->triangles);
     }
-    if (bench->sweep == NULL || strcmp(bench->sweep, "resolution") != 0) {
+    if (bench->sweep != vt_sweepResolution) {
         fprintf(out, ", %d x %d", first->width, first->height);
     }
-    fprintf(out, ", index %g, at most %d events, preset %s; ", (double)bench->ior, bench->maxEvents,
-            bench->preset);
-    if (bench->sweep == NULL) {
+    if (bench->ior > 0.0f) {
+        fprintf(out, ", index %g", (double)bench->ior);
+    }
+    fprintf(out, ", at most %d events, preset %s; ", bench->maxEvents, bench->preset);
+    if (bench->sweep == vt_sweepNone) {
         fprintf(out, "%zu pixels see glass, %.2f events a path; ", first->paths, first->eventsAPath);
     }
     fprintf(out, "%s, %s; ", bench->device, bench->version);
@@ -43,7 +45,7 @@ static void writeHeader(const vtBench* bench, FILE* out)
         fprintf(out, "%d processors", bench->processors);
     }
     fprintf(out, "; medians of %d frames.", first->rounds);
-    if (bench->sweep == NULL) {
+    if (bench->sweep == vt_sweepNone) {
         fprintf(out, " Mesh on the GPU: %.1f MB, %.0f ms.", mebibytes(first->meshBytes), first->upload);
     }
     fprintf(out, "\n\n");
@@ -52,12 +54,9 @@ static void writeHeader(const vtBench* bench, FILE* out)
 /// The sweep's column; nothing without a sweep.
 static void writeVariable(const vtBench* bench, const vtBenchCase* measured, FILE* out)
 {
-    if (bench->sweep == NULL) {
-        return;
-    }
-    if (strcmp(bench->sweep, "triangles") == 0) {
+    if (bench->sweep == vt_sweepTriangles) {
         fprintf(out, "| %d ", measured->triangles);
-    } else {
+    } else if (bench->sweep == vt_sweepResolution) {
         fprintf(out, "| %d x %d ", measured->width, measured->height);
     }
 }
@@ -100,16 +99,59 @@ static void writeStages(const vtBench* bench, FILE* out)
     }
 }
 
+static int stageNumber(const char* name)
+{
+    int stage = 0;
+    while (strcmp(vtBenchStage(stage), name) != 0) {
+        ++stage;
+    }
+    return stage;
+}
+
+/// A sweep over objects: what each costs, and what all hold.
+static void writeObjects(const vtBench* bench, FILE* out)
+{
+    const vtBenchCase* first = &bench->cases[0];
+    const int refract = stageNumber("refract");
+    fprintf(out,
+            "| objects | technique | glass pixels | of the picture | events a path | frame | CPU | CPU a "
+            "glass pixel | refract alone | CPU / Embree | within 1° | lost | textures | meshes |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (int i = 0; i < bench->caseCount; ++i) {
+        const vtBenchCase* measured = &bench->cases[i];
+        const double share = (double)measured->paths / ((double)measured->width * (double)measured->height);
+        const double perPixel = (double)first->paths / (double)measured->paths;
+        for (int k = 0; k < bench->rowCount; ++k) {
+            const vtBenchRow *row = &measured->rows[k], *one = &first->rows[k];
+            fprintf(out, "| %d | %s | %zu | %.1f %% | %.2f | ", measured->copies, row->label, measured->paths,
+                    100.0 * share, measured->eventsAPath);
+            fprintf(out, "%.1f ms | %.1f ms | %.2f | %.2f | %.2f | ", row->time.wall, row->time.processor,
+                    perPixel * row->time.processor / one->time.processor,
+                    perPixel * row->stages[refract].processor / one->stages[refract].processor,
+                    row->time.processor / measured->traced.processor);
+            fprintf(out, "%.2f %% | %.2f %% | %.1f MB | %.1f MB |\n", 100.0 * row->error.within1,
+                    100.0 * row->error.lost, mebibytes(row->textureBytes), mebibytes(measured->meshBytes));
+        }
+        fprintf(out, "| %d | Embree | - | - | - | %.1f ms | %.1f ms | %.2f | - | 1 | - | - | - | - |\n",
+                measured->copies, measured->traced.wall, measured->traced.processor,
+                perPixel * measured->traced.processor / first->traced.processor);
+    }
+}
+
 void vtBench_WriteTable(const vtBench* bench, FILE* out)
 {
     writeHeader(bench, out);
-    if (bench->sweep != NULL) {
-        fprintf(out, "| %s ", bench->sweep);
+    if (vtSweepsObjects(bench->sweep)) {
+        writeObjects(bench, out);
+        return;
+    }
+    if (bench->sweep != vt_sweepNone) {
+        fprintf(out, "| %s ", vtSweepName(bench->sweep));
     }
     fprintf(out, "| technique | frame | CPU | frame / Embree | CPU / Embree | frame / layered | CPU / "
                  "layered | within 1° | "
                  "within 5° | lost | reads a path | reads an event | textures | build |\n");
-    for (int i = 0; i < (bench->sweep != NULL ? 15 : 14); ++i) {
+    for (int i = 0; i < (bench->sweep != vt_sweepNone ? 15 : 14); ++i) {
         fprintf(out, "|---");
     }
     fprintf(out, "|\n");
@@ -122,7 +164,7 @@ void vtBench_WriteTable(const vtBench* bench, FILE* out)
         fprintf(out, "| Embree | %.1f ms | %.1f ms | 1 | 1 | - | - | - | - | - | - | - | - | %.0f ms |\n",
                 measured->traced.wall, measured->traced.processor, measured->tracerBuild);
     }
-    if (bench->sweep == NULL) {
+    if (bench->sweep == vt_sweepNone) {
         writeStages(bench, out);
     }
 }
@@ -171,7 +213,7 @@ void vtBench_WriteJson(const vtBench* bench, FILE* out)
     fprintf(out, "{");
     writeText("version", VT_VERSION, out);
     writeText("model", bench->model, out);
-    writeText("sweep", bench->sweep != NULL ? bench->sweep : "", out);
+    writeText("sweep", vtSweepName(bench->sweep), out);
     writeText("preset", bench->preset, out);
     writeText("device", bench->device, out);
     writeText("gl", bench->version, out);
@@ -179,9 +221,10 @@ void vtBench_WriteJson(const vtBench* bench, FILE* out)
             bench->processors, (double)bench->ior, bench->maxEvents);
     for (int i = 0; i < bench->caseCount; ++i) {
         const vtBenchCase* measured = &bench->cases[i];
-        fprintf(out, "%s{\"triangles\":%d,\"width\":%d,\"height\":%d,\"rounds\":%d,\"paths\":%zu,",
-                i > 0 ? "," : "", measured->triangles, measured->width, measured->height, measured->rounds,
-                measured->paths);
+        fprintf(out,
+                "%s{\"objects\":%d,\"triangles\":%d,\"width\":%d,\"height\":%d,\"rounds\":%d,\"paths\":%zu,",
+                i > 0 ? "," : "", measured->copies, measured->triangles, measured->width, measured->height,
+                measured->rounds, measured->paths);
         fprintf(out, "\"eventsAPath\":%.4f,\"upload\":%.3f,\"meshBytes\":%zu,", measured->eventsAPath,
                 measured->upload, measured->meshBytes);
         fprintf(out, "\"reference\":{\"wall\":%.4f,\"cpu\":%.4f,\"build\":%.3f},\"techniques\":[",

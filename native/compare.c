@@ -248,9 +248,10 @@ static vtResult comparePictures(const Request* request, const Input inputs[2], v
     return result;
 }
 
-/// The whole, its paths of up to 4 events (what methods are judged by), and the groups.
+/// The whole, its paths of up to 4 events (what methods are judged by) and up to 6 (of several objects), and
+/// the groups.
 typedef struct DirectionReport {
-    vtDirectionError all, upTo4, groups[VT_EVENT_GROUPS];
+    vtDirectionError all, upTo4, upTo6, groups[VT_EVENT_GROUPS];
     bool split;
 } DirectionReport;
 
@@ -268,6 +269,8 @@ static void printJsonReport(const Input* size, const DirectionReport* report)
     if (report->split) {
         printf(", \"upTo4Events\": {");
         printJsonShares(&report->upTo4);
+        printf("}, \"upTo6Events\": {");
+        printJsonShares(&report->upTo6);
         printf("}, \"byEvents\": [");
         for (int i = 0; i < VT_EVENT_GROUPS; ++i) {
             vtEventRange range = vtEventGroup(i);
@@ -294,6 +297,7 @@ static void printTextReport(const DirectionReport* report)
     printRow("all", &report->all);
     if (report->split) {
         printRow("1-4 events", &report->upTo4);
+        printRow("1-6 events", &report->upTo6);
         for (int i = 0; i < VT_EVENT_GROUPS; ++i) {
             vtEventRange range = vtEventGroup(i);
             char name[24];
@@ -319,6 +323,10 @@ static vtResult measureDirections(const Request* request, const Input inputs[2],
     if (report->split) {
         result = vtCompareDirectionsOfEvents(directions, truth, events, count, (vtEventRange){1, 4},
                                              &report->upTo4, error);
+    }
+    if (report->split && result == vt_ok) {
+        result = vtCompareDirectionsOfEvents(directions, truth, events, count, (vtEventRange){1, 6},
+                                             &report->upTo6, error);
     }
     for (int i = 0; i < VT_EVENT_GROUPS && report->split && result == vt_ok; ++i) {
         result = vtCompareDirectionsOfEvents(directions, truth, events, count, vtEventGroup(i),

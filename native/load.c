@@ -302,6 +302,7 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->height = options->size[1];
     frame->ior = input->ior;
     frame->fresnel = options->fresnel;
+    frame->branches = options->branches;
     frame->layers = options->layers;
     frame->steps = options->steps;
     frame->refine = options->refine;

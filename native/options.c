@@ -38,7 +38,7 @@ static const Option table[] = {
      RENDER | LADDER},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID", "see 'vitrine list' (exact)", RENDER | VIEW},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID,ID,...",
-     "see 'vitrine list' (exact,layered,bvh,single)", BENCH},
+     "see 'vitrine list' (" VT_BENCH_TECHNIQUES "; sweeps over objects: exact)", BENCH},
     {"preset", 0, kindText, AT(preset), 0, 0, "low|medium|high", "settings that are not given (medium)",
      SCENE},
     {"layers", 0, kindInteger, AT(layers), 1, VT_MAX_LAYERS, "N",
@@ -87,6 +87,8 @@ static const Option table[] = {
      "with Fresnel reflection, the default; given, it holds for --directions too", RENDER | VIEW},
     {"no-fresnel", 0, kindFlag, AT(noFresnel), 0, 0, NULL, "paths only refract, or reflect where they must",
      RENDER | VIEW},
+    {"branches", 0, kindInteger, AT(branches), -1, VT_MAX_BRANCHES, "N",
+     "exact: how often light that left a path is followed, -1 never (preset: 0, 1, 2)", RENDER | VIEW},
     {"multi", 0, kindText, AT(multi), 0, 0, "any|ordered",
      "layered, several objects: as paths meet them, or one after the other (any)", RENDER | VIEW | BENCH},
     {"events", 0, kindText, AT(events), 0, 0, "FILE",
@@ -103,8 +105,9 @@ static const Option table[] = {
      LADDER | BENCH},
     {"json", 0, kindFlag, AT(json), 0, 0, NULL, "one JSON object on standard output instead of the table",
      BENCH},
-    {"sweep", 0, kindText, AT(sweep), 0, 0, "triangles|resolution",
-     "measure again and again: knot or torus of 1,000 to 1,000,000 triangles, or pictures of 256 to 2048",
+    {"sweep", 0, kindText, AT(sweep), 0, 0, "triangles|resolution|objects|depth",
+     "measure again and again: knot or torus of 1,000 to 1,000,000 triangles, pictures of 256 to 2048, or 1 "
+     "to 16 copies side by side or one behind the other",
      BENCH},
     {"plot", 0, kindText, AT(plot), 0, 0, "FILE", "the sweep's times as a picture, SVG", BENCH},
     {"triangles", 0, kindInteger, AT(triangles), 200, 4e6, "N",
@@ -205,8 +208,7 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     vtFrame frame = vtDefaultFrame();
     *options = (vtOptions){
         .environment = "studio",
-        .technique =
-            command == vt_commandBench ? "exact,layered,bvh,single" : vtTechnique_Info(frame.technique)->id,
+        .technique = command == vt_commandBench ? VT_BENCH_TECHNIQUES : vtTechnique_Info(frame.technique)->id,
         .backend = "auto",
         .size = {frame.width, frame.height},
         .topLevel = frame.topLevel,

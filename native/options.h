@@ -6,6 +6,9 @@
 
 #define VT_MAX_OBJECT_OPTIONS 64
 
+/// What `bench` measures unless told otherwise.
+#define VT_BENCH_TECHNIQUES "exact,layered,bvh,single"
+
 /// All that `render` and `view` can be told. Zero or NULL means "not given" where a default depends on the
 /// model.
 typedef struct vtOptions {
@@ -35,7 +38,8 @@ typedef struct vtOptions {
     int cameraIndex; ///< of the file's cameras; -1: none of them
     int size[2];
     int layers, steps, refine, maxEvents, layerSize, cubeSize, topLevel;
-    int samples; ///< a pixel
+    int branches; ///< as vtFrame has them
+    int samples;  ///< a pixel
     float referenceThreshold;
     int triangles; ///< of the knot or the torus; 0: as built in
     int rounds, threads;

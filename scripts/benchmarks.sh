@@ -42,6 +42,21 @@ TEXT
   "$vitrine" bench knot "${common[@]}" --sweep triangles --plot "$scratch/bench-triangles.svg"
   printf '\n## Resolution\n\n![time over pixels](pictures/bench-resolution.svg)\n\n'
   "$vitrine" bench knot "${common[@]}" --sweep resolution --plot "$scratch/bench-resolution.svg"
+  cat <<'TEXT'
+
+## Objects
+
+Copies of the knot, side by side: each as large in the picture as the one alone, so that the pixels that see glass grow
+with their number. Then one behind the other, all as large in the picture: the same pixels, and ever more surfaces. *CPU
+a glass pixel* and *refract alone* (the CPU time of that stage) are to those of one object; copies share all memory of
+their mesh.
+
+![time over objects](pictures/bench-objects.svg)
+
+TEXT
+  "$vitrine" bench knot "${common[@]}" --sweep objects --plot "$scratch/bench-objects.svg"
+  printf '\n![time over objects, one behind the other](pictures/bench-depth.svg)\n\n'
+  "$vitrine" bench knot "${common[@]}" --sweep depth --max-events 64 --plot "$scratch/bench-depth.svg"
 } >"$scratch/benchmarks.md"
 mv "$scratch"/bench-*.svg docs/pictures/
 mv "$scratch/benchmarks.md" docs/benchmarks.md

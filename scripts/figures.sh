@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Rebuilds every picture and figure of README and docs. --models FOLDER adds models that cannot be shipped.
+# Rebuilds every picture and figure of README and docs (docs/scenes.md and the branches of docs/method.md alone:
+# node scripts/scenes.mjs). --models FOLDER adds models that cannot be shipped.
 set -eu
 cd "$(dirname "$0")/.."
 vitrine=build/release/vitrine
@@ -14,6 +15,13 @@ rm -f "$pictures"/{bottle,torus,sphere}.png
 for id in kay-linear kay-nonlinear kay-thickness single wyman oliveira layered exact bvh reference; do
   "$vitrine" render knot -t "$id" -e sky -r 320,320 -o "$pictures/technique-$id.png"
 done
+# Scenes, for the README.
+"$vitrine" render --object cube:at=0,0,0.6 --object knot:at=0,0,-2 --camera 1.1,1,4.6 --target 0,0.05,-0.6 --fov 34 -e sky \
+  --preset high --samples 16 -r 540,540 -o "$pictures/scene-knot.png"
+"$vitrine" render --object tumbler --object water:ior=1.33,absorb=0.6,0.85,0.9 --object plane:at=0,0,-4,scale=2,checker \
+  --camera 0.8,1.2,4 --target 0,0,0 -e studio --preset high --samples 16 -r 540,540 -o "$pictures/scene-water.png"
+node scripts/scenes.mjs
+
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$vitrine" render torus -t reference -r 320,200 --directions "$scratch/truth.pfm"
