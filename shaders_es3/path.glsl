@@ -5,8 +5,8 @@ layout(location = 1) out uvec4 o_end;   // last position (bits of three floats),
 layout(location = 2) out uvec4 o_light; // halves: transmittance (3), share aside or light added (3); objects
 layout(location = 3) out uvec4 o_aside; // light that left the path: where (bits of three floats), direction
 
-// Objects: where the path ends on one its number plus one, 11 bits; the first two of the media of the light aside, 10
-// bits each.
+// Objects: where the path ends on one its number plus one, 11 bits; the two media of highest precedence of the
+// light aside, 10 bits each.
 
 struct Path {
     vec3 position, direction;
@@ -58,9 +58,10 @@ void writePathEnd(Path p, int status, uint triangle, int end)
     int state = status + 256 * p.events + (p.reflected ? VT_PATH_TIR : 0);
     o_path = uvec4(floatBitsToUint(p.direction), uint(state));
     o_end = uvec4(floatBitsToUint(p.position), triangle);
-    uint first = max(max(p.asideMedia.x, p.asideMedia.y), max(p.asideMedia.z, p.asideMedia.w));
-    uvec4 rest = p.asideMedia * uvec4(notEqual(p.asideMedia, uvec4(first)));
-    uint second = max(max(rest.x, rest.y), max(rest.z, rest.w));
+    uvec4 ranks = p.asideMedia - 1u; // free places become the greatest number
+    uint least = min(min(ranks.x, ranks.y), min(ranks.z, ranks.w));
+    uvec4 rest = ranks | (uvec4(equal(ranks, uvec4(least))) * 0xffffffffu);
+    uint first = least + 1u, second = min(min(rest.x, rest.y), min(rest.z, rest.w)) + 1u;
     o_light.w = uint(end + 1) | first << 11u | second << 21u;
     writeHalves(p.transmittance, p.aside);
     o_aside = uvec4(floatBitsToUint(p.asidePosition), packNormal(p.asideDirection));

@@ -13,8 +13,8 @@ Path startBranch(out uvec4 media)
     }
     Path p = startPath(uintBitsToFloat(aside.xyz), unpackNormal(aside.w));
     p.transmittance = share;
-    p.choice = fract(7.0 * p.choice);
-    p.choice = u_eye.w < 0.0 ? u_eye.w : p.choice;
+    // Another number for every sample, that does not hang together with the path's own: 43 steps of the golden ratio.
+    p.choice = u_eye.w < 0.0 ? u_eye.w : fract(43.0 * u_eye.w);
     p.events = 1; // it met the surface that it left the path at
     media = uvec4((light.w >> 11u) & 1023u, light.w >> 21u, 0u, 0u);
     return p;

@@ -366,7 +366,8 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtFrame
         .size = {frame->width, frame->height, layerWidth, layerHeight},
         .cube = {frame->cubeSize, vtFrame_CubeLayers(frame), frame->layerSource == vt_layersFromEye ? 1 : 3,
                  frame->topLevel},
-        .scene = {(int)scene->glassCount, (int)scene->objectCount, frame->fresnel,
+        .scene = {(int)scene->glassCount, (int)scene->objectCount,
+                  frame->fresnel && frame->output == vt_outputPicture,
                   row->findsOpaque && vtFrame_Variant(frame, true) != vt_variantOrdered},
         .output = {frame->output, frame->layer, renderer->environment, frame->transparentBackground},
     };
