@@ -170,7 +170,8 @@ void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInpu
                                 &scene->attributes,
                                 &scene->images,
                                 &pass->lighting,
-                                inputs->branch > 0 ? vtShadePass_Light(pass, inputs->branch - 1) : NULL};
+                                inputs->branch > 0 ? vtShadePass_Light(pass, inputs->branch - 1)
+                                                   : &inputs->paths->paths}; // WebGL: not what is drawn to
     for (int unit = 0; unit < (int)(sizeof units / sizeof units[0]); ++unit) {
         if (units[unit] != NULL && units[unit]->name != 0) {
             vtTexture_Bind(units[unit], gl, unit);
