@@ -25,7 +25,7 @@ OpaqueHit searchOpaque(vec3 origin, vec3 direction, float farthest)
             Passage passage = passTile(s, s.cell, 0);
             Meeting meeting;
             bool isEmpty, isFound = false;
-            for (int attempt = 0; attempt < 2 && !isFound; ++attempt) {
+            for (int attempt = 0; attempt < 6 && !isFound; ++attempt) {
                 isFound = tryCell(s, passage, false, attempt, meeting, isEmpty);
             }
             if (isFound && meeting.distance < hit.distance) {
