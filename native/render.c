@@ -129,7 +129,7 @@ static void sayLayers(const vtFrame* frame, const vtRendererInfo* info)
         fprintf(stderr, "%s%s %.1f", preset == 0 ? " (" : ", ", vtPresetName(preset),
                 (double)vtFrame_CubeBytes(&other) / 1e6);
     }
-    fprintf(stderr, " MB)\n");
+    fprintf(stderr, " MB) for each mesh\n");
 }
 
 /// `ior`: of all glass, 0: there are several.

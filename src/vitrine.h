@@ -96,8 +96,9 @@ vtResult vtCreateMesh(const vtMeshDef* def, const char* name, vtMesh* mesh, vtEr
 /// Does nothing where they are there already. About a second for 100,000 triangles.
 vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error);
 
-/// One of the built-in closed, outward shapes: sphere torus knot goblet bottle diamond.
-/// Fails with vt_errorArgument for another name.
+/// One of the built-in shapes: sphere torus knot goblet bottle diamond cube plane tumbler water; all but the
+/// plane are closed and outward. Tumbler and water fit one in the other. Fails with vt_errorArgument for
+/// another name.
 vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error);
 
 /// Names of the built-in shapes, by index; NULL past the end. `vtShapeSummary` says what each is.
@@ -390,8 +391,8 @@ vtFrame vtDefaultFrame(void);
 /// The frame with every 0 that leaves a setting to the preset replaced by what it stands for.
 vtFrame vtResolveFrame(const vtFrame* frame);
 
-/// GPU memory that `exact` takes for its layers with the frame's settings, bytes; mesh and picture not
-/// counted.
+/// GPU memory that `exact` takes for the layers of one mesh with the frame's settings, bytes; the mesh itself
+/// and the picture not counted. Instances share it.
 size_t vtFrame_CubeBytes(const vtFrame* frame);
 
 /// Checks every field against its documented range; the sentence names field, value and range.
