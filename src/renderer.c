@@ -43,6 +43,7 @@ struct vtRenderer {
     vtTechnique technique;
     vtBackSurface backSurface;
     vtMulti multi;
+    int branches;
     int sampleEnd; // the first sample not drawn yet; 0: nothing to go on with
     // vtRenderer_DrawImage draws into this.
     GLuint imageFramebuffer;
@@ -606,7 +607,8 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     }
     vtFrameUniforms uniforms;
     const bool sameRest = renderer->technique == frame->technique &&
-                          renderer->backSurface == frame->backSurface && renderer->multi == frame->multi;
+                          renderer->backSurface == frame->backSurface && renderer->multi == frame->multi &&
+                          renderer->branches == vtFrame_BranchCount(frame);
     renderer->sampleEnd = frame->firstSample > 0 && sameRest ? renderer->sampleEnd : 0;
     result = prepareFrame(renderer, frame, &uniforms, error);
     if (result != vt_ok) {
@@ -617,6 +619,7 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     renderer->technique = frame->technique;
     renderer->backSurface = frame->backSurface;
     renderer->multi = frame->multi;
+    renderer->branches = vtFrame_BranchCount(frame);
     vtSceneBuffer_SortGlass(&renderer->scene, frame->view.eye);
 
     endStage(frame, "prepare");

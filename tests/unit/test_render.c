@@ -466,7 +466,7 @@ static void whateverChangesStartsAnew(void** state)
 {
     Fixture* fixture = *state;
     uint8_t* wanted = malloc(pixelBytes);
-    enum { changes = 8, first = 5 };
+    enum { changes = 10, first = 5 };
     for (int i = 0; i < changes; ++i) {
         setShape(fixture->renderer, "torus");
         setEnvironment(fixture->renderer, "studio");
@@ -492,6 +492,13 @@ static void whateverChangesStartsAnew(void** state)
             break;
         case 5:
             before.output = vt_outputAnalysis;
+            break;
+        case 8: // branches are those of `exact`
+        case 9:
+            after.technique = before.technique = vt_techniqueExact;
+            after.fresnel = before.fresnel = true;
+            before.branches = i == 8 ? -1 : 1;
+            before.ior = i == 8 ? before.ior : 1.6f; // an index of its own is in the objects' table
             break;
         default:
             break;
