@@ -957,7 +957,7 @@ static void tooManyObjectsGetSentence(void** state)
     char* json = malloc(capacity);
     snprintf(json, capacity, "\"nodes\":[%s]}],\"nodes\":[%s]", roots, nodes);
     const File file = makeCube("\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]", json);
-    expectFailure(file, vt_errorGeometry, "its nodes place 1025 meshes but there can be 1024");
+    expectFailure(file, vt_errorGeometry, "its nodes place 1001 meshes but there can be 1000");
     free(file.bytes);
     free(json);
     free(roots);

@@ -48,6 +48,7 @@ static vtFrame frameOf(vtTechnique technique, vtMulti multi)
     vtFrame frame = smallFrame(technique);
     frame.view = (vtView){.eye = {0.4f, 0.5f, 6.0f}, .target = {0.0f, 0.0f, 0.0f}, .fovY = 25.0f};
     frame.multi = multi;
+    frame.ior = 0.0f; // each object's own
     return frame;
 }
 
