@@ -1,54 +1,8 @@
 // Follows the path of each pixel that sees glass, event by event, until it has left all glass for good or ends on
 // something opaque.
 
-// Far more rounds than paths take, so that no fault of the data hangs the GPU.
-const int MOST_SURFACES = 256, MOST_ROUNDS = 1024;
-
-// Where the path meets an object next, its triangle VT_NO_TRIANGLE where it does not before `farthest`. False where it
-// must have met it, unnoticed. isOther: the path is not on its surface now.
-bool searchObject(Path p, int object, bool inside, bool isOther, float farthest, out Meeting meeting)
-{
-    meeting = Meeting(NOWHERE, VT_NO_TRIANGLE);
-    int axis = -1;
-    for (int tried = 0; tried < u_cube.z; ++tried) {
-        Search s = startSearch(p.position, p.direction, object, axis, farthest, u_search.y);
-        int attempt = 0;
-        for (int round = 0; round < MOST_ROUNDS; ++round) {
-            walkTiles(s, inside);
-            if (s.steps < 0) {
-                return false;
-            }
-            Passage passage = passTile(s, s.cell >> s.level, s.level);
-            bool isEmpty = false;
-            if (!s.isOver && tryCell(s, passage, inside, attempt, meeting, isEmpty)) {
-                return true;
-            }
-            // A ray that has come out of the glass, or into it, without a surface has missed a wall too steep for
-            // this side: more of the cell's surfaces are tried, then the next side.
-            bool isOver = s.isOver || passage.leave >= s.ray.end;
-            bool crossed = !s.isOver && !s.isOpaque &&
-                           fits(readIntervals(s, s.cell, 0, inside ? NEAR : INNER), passage.low, passage.high, 0.0, !inside);
-            if (isOver && !crossed && (!inside || s.ray.isCut)) {
-                return true;
-            }
-            // Layers from the eye have no next side to ask; and of a ray that only grazes an object nothing tells
-            // afterwards.
-            bool isLast = crossed && !isOver && u_cube.z == 1;
-            int attempts = isLast || (isOther && !inside) ? 5 : isEmpty && !inside ? 1 : 0;
-            if (attempt < attempts) {
-                ++attempt;
-                continue;
-            }
-            if (crossed || isOver) {
-                break;
-            }
-            attempt = 0;
-            s.cell += passage.exits.x <= passage.exits.y ? ivec2(2 * s.positive.x - 1, 0) : ivec2(0, 2 * s.positive.y - 1);
-        }
-        axis = axis == 2 ? 0 : axis + 1;
-    }
-    return false;
-}
+// Far more surfaces than paths meet, so that no fault of the data hangs the GPU.
+const int MOST_SURFACES = 256;
 
 void main()
 {
@@ -90,7 +44,7 @@ void main()
                 continue;
             }
             Meeting meeting;
-            isMissed = !searchObject(p, object, inside, object != met, nearest.distance + same, meeting) || isMissed;
+            isMissed = !searchObject(p.position, p.direction, object, inside, object != met, nearest.distance + same, u_search.y, meeting) || isMissed;
             // Touching glass is crossed at once.
             bool isSame = abs(meeting.distance - nearest.distance) <= same && meeting.distance < NOWHERE;
             also = isSame && object < u_scene.x ? object : also;

@@ -253,3 +253,53 @@ bool tryCell(Search s, Passage p, bool inside, int attempt, inout Meeting meetin
     meeting.triangle = isMet ? triangle : meeting.triangle;
     return isMet;
 }
+
+// Far more rounds than a search takes, so that no fault of the data hangs the GPU.
+const int MOST_ROUNDS = 1024;
+
+// Where a path meets an object next, its triangle VT_NO_TRIANGLE where it does not before `farthest`. False where it
+// must have met it, unnoticed. isOther: the path is not on its surface now. `steps`: texels of the pyramid read.
+bool searchObject(vec3 origin, vec3 direction, int object, bool inside, bool isOther, float farthest, int steps,
+                  out Meeting meeting)
+{
+    meeting = Meeting(NOWHERE, VT_NO_TRIANGLE);
+    int axis = -1;
+    for (int tried = 0; tried < u_cube.z; ++tried) {
+        Search s = startSearch(origin, direction, object, axis, farthest, steps);
+        int attempt = 0;
+        for (int round = 0; round < MOST_ROUNDS; ++round) {
+            walkTiles(s, inside);
+            if (s.steps < 0) {
+                return false;
+            }
+            Passage passage = passTile(s, s.cell >> s.level, s.level);
+            bool isEmpty = false;
+            if (!s.isOver && tryCell(s, passage, inside, attempt, meeting, isEmpty)) {
+                return true;
+            }
+            // A ray that has come out of the glass, or into it, without a surface has missed a wall too steep for
+            // this side: more of the cell's surfaces are tried, then the next side.
+            bool isOver = s.isOver || passage.leave >= s.ray.end;
+            bool crossed = !s.isOver && !s.isOpaque &&
+                           fits(readIntervals(s, s.cell, 0, inside ? NEAR : INNER), passage.low, passage.high, 0.0, !inside);
+            if (isOver && !crossed && (!inside || s.ray.isCut)) {
+                return true;
+            }
+            // Layers from the eye have no next side to ask; and of a ray that only grazes an object nothing tells
+            // afterwards.
+            bool isLast = crossed && !isOver && u_cube.z == 1;
+            int attempts = isLast || (isOther && !inside) ? 5 : isEmpty && !inside ? 1 : 0;
+            if (attempt < attempts) {
+                ++attempt;
+                continue;
+            }
+            if (crossed || isOver) {
+                break;
+            }
+            attempt = 0;
+            s.cell += passage.exits.x <= passage.exits.y ? ivec2(2 * s.positive.x - 1, 0) : ivec2(0, 2 * s.positive.y - 1);
+        }
+        axis = axis == 2 ? 0 : axis + 1;
+    }
+    return false;
+}

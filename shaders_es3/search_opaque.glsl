@@ -15,26 +15,10 @@ OpaqueHit searchOpaque(vec3 origin, vec3 direction, float farthest)
         if (!entersBox(object, origin, direction, hit.distance)) {
             continue;
         }
-        int axis = -1;
-        Search s = startSearch(origin, direction, object, axis, hit.distance, MOST_OPAQUE_STEPS);
-        for (int round = 0; round < MOST_OPAQUE_STEPS; ++round) {
-            walkTiles(s, false);
-            if (s.isOver || s.steps < 0) {
-                break;
-            }
-            Passage passage = passTile(s, s.cell, 0);
-            Meeting meeting;
-            bool isEmpty, isFound = false;
-            for (int attempt = 0; attempt < 6 && !isFound; ++attempt) {
-                isFound = tryCell(s, passage, false, attempt, meeting, isEmpty);
-            }
-            if (isFound && meeting.distance < hit.distance) {
-                hit = OpaqueHit(meeting.distance, meeting.triangle, object);
-            }
-            if (isFound || passage.leave >= s.ray.end) {
-                break;
-            }
-            s.cell += passage.exits.x <= passage.exits.y ? ivec2(2 * s.positive.x - 1, 0) : ivec2(0, 2 * s.positive.y - 1);
+        Meeting meeting;
+        searchObject(origin, direction, object, false, true, hit.distance, MOST_OPAQUE_STEPS, meeting);
+        if (meeting.distance < hit.distance) {
+            hit = OpaqueHit(meeting.distance, meeting.triangle, object);
         }
     }
     return hit;

@@ -22,15 +22,6 @@ vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t*
 /// Does the object's mesh, which is closed, contain the point (world)?
 bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point);
 
-static inline vtVec3 vtTransformPoint(const vtTransform* t, vtVec3 p)
-{
-    const float* x = t->rows[0];
-    const float* y = t->rows[1];
-    const float* z = t->rows[2];
-    return (vtVec3){x[0] * p.x + x[1] * p.y + x[2] * p.z + x[3], y[0] * p.x + y[1] * p.y + y[2] * p.z + y[3],
-                    z[0] * p.x + z[1] * p.y + z[2] * p.z + z[3]};
-}
-
 static inline vtVec3 vtTransformVector(const vtTransform* t, vtVec3 v)
 {
     const float* x = t->rows[0];
@@ -38,6 +29,12 @@ static inline vtVec3 vtTransformVector(const vtTransform* t, vtVec3 v)
     const float* z = t->rows[2];
     return (vtVec3){x[0] * v.x + x[1] * v.y + x[2] * v.z, y[0] * v.x + y[1] * v.y + y[2] * v.z,
                     z[0] * v.x + z[1] * v.y + z[2] * v.z};
+}
+
+static inline vtVec3 vtTransformPoint(const vtTransform* t, vtVec3 p)
+{
+    const vtVec3 v = vtTransformVector(t, p);
+    return (vtVec3){v.x + t->rows[0][3], v.y + t->rows[1][3], v.z + t->rows[2][3]};
 }
 
 /// An outward normal of the object in the world, not of unit length; `toObject` is the inverse transform.

@@ -146,15 +146,6 @@ static float indexOf(const Tracer* tracer, uint32_t id)
     return id == 0 ? 1.0f : tracer->ior > 0.0f ? tracer->ior : tracer->placed[id - 1].material->ior;
 }
 
-/// vtMeetSurface between any two media. Both normals are against the ray.
-static vtVec3 meetInterface(vtVec3 I, vtVec3 N, vtVec3 G, float eta, bool* reflected)
-{
-    const vtVec3 T = vtBend(I, N, eta, reflected);
-    const float side = vtDot(T, G);
-    const bool isWrong = vtDot(N, I) >= 0.0f || (*reflected ? side <= 0.0f : side >= 0.0f);
-    return isWrong ? vtBend(I, G, eta, reflected) : T;
-}
-
 /// Takes the path through a surface of glass: an event, where indices differ, or straight on. False where an
 /// event is one too many.
 static bool cross(const Tracer* tracer, const Meeting* meeting, int maxEvents, vtVec3 position,
@@ -187,7 +178,7 @@ static bool cross(const Tracer* tracer, const Meeting* meeting, int maxEvents, v
     const vtVec3 against = vtScale(N, turn);
     event->position = position;
     event->incoming = degreesBetween(vtScale(I, -1.0f), against);
-    *direction = meetInterface(I, against, vtScale(G, turn), eta, &event->reflected);
+    *direction = vtMeetInterface(I, against, vtScale(G, turn), eta, &event->reflected);
     event->outgoing = degreesBetween(*direction, event->reflected ? against : vtScale(against, -1.0f));
     *media = event->reflected ? *media : next;
     return true;

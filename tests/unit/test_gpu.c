@@ -1,6 +1,7 @@
 // The shaders' functions against their twins in C, on the same inputs.
 #include "base/math.h"
 #include "base/optics.h"
+#include "cases.h"
 #include "context.h"
 #include "gl/program.h"
 #include "gl/target.h"
@@ -45,26 +46,6 @@ static const vtChunk cases = {
              "  float a = 6.2831853 * unit(x + 77777u);\n"
              "  float r = sqrt(1.0 - z * z); return vec3(r * cos(a), z, r * sin(a)); }\n"
              "uint caseIndex() { return uint(gl_FragCoord.y) * 64u + uint(gl_FragCoord.x); }\n"};
-
-static uint32_t hash(uint32_t x)
-{
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-
-static float unit(uint32_t x)
-{
-    return (float)(hash(x) >> 8) / 16777216.0f;
-}
-
-static vtVec3 onSphere(uint32_t x)
-{
-    float z = 2.0f * unit(x) - 1.0f, a = 6.2831853f * unit(x + 77777u), r = sqrtf(1.0f - z * z);
-    return (vtVec3){r * cosf(a), z, r * sinf(a)};
-}
 
 /// Runs a fragment shader over size x size cases and reads its uvec4 back.
 static void evaluate(Fixture* fixture, const vtChunk* const* chunks, uint32_t* results)

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include "base/math.h"
+#include "cases.h"
 #include "context.h"
 #include "gl/image_array.h"
 #include "gl/lighting_texture.h"
@@ -12,26 +13,6 @@
 #include "scene/triangles.h"
 #include "shaders.h"
 #include "testing.h"
-
-static uint32_t hash(uint32_t x)
-{
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-
-static float unit(uint32_t x)
-{
-    return (float)(hash(x) >> 8) / 16777216.0f;
-}
-
-static vtVec3 onSphere(uint32_t x)
-{
-    float z = 2.0f * unit(x) - 1.0f, a = 6.2831853f * unit(x + 77777u), r = sqrtf(1.0f - z * z);
-    return (vtVec3){r * cosf(a), z, r * sinf(a)};
-}
 
 /// Of the channel that differs most.
 static float difference(vtVec3 a, vtVec3 b)

@@ -1,0 +1,24 @@
+// Numbers and directions that look random and are the same in every run; test_gpu.c makes the same in a shader.
+#pragma once
+
+#include "base/math.h"
+
+static inline uint32_t hash(uint32_t x)
+{
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
+static inline float unit(uint32_t x)
+{
+    return (float)(hash(x) >> 8) / 16777216.0f;
+}
+
+static inline vtVec3 onSphere(uint32_t x)
+{
+    float z = 2.0f * unit(x) - 1.0f, a = 6.2831853f * unit(x + 77777u), r = sqrtf(1.0f - z * z);
+    return (vtVec3){r * cosf(a), z, r * sinf(a)};
+}
