@@ -1,4 +1,4 @@
-// Numbers and directions that look random and are the same in every run; test_gpu.c makes the same in a shader.
+// Numbers and directions that look random, the same in every run; test_gpu.c makes them in a shader.
 #pragma once
 
 #include "base/math.h"
