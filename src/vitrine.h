@@ -84,6 +84,8 @@ typedef struct vtMesh {
     uint32_t degenerateCount; ///< triangles of no area, kept in the count above but never visible
     float* texcoords;         ///< 2 * vertexCount, or NULL
     float* colors;            ///< 3 * vertexCount, linear, or NULL
+    struct vtHeightField*
+        heights; ///< of a relief, which has no triangles before vtTriangulateRelief; or NULL
 } vtMesh;
 
 /// Copies and checks triangles. Missing normals are computed as angle-weighted means over welded
@@ -107,6 +109,50 @@ const char* vtShapeSummary(int index);
 
 /// Frees what the mesh holds and zeroes it. Safe on a zeroed mesh.
 void vtDestroyMesh(vtMesh* mesh);
+
+// ---------------------------------------------------------------------------------------------- relief
+
+typedef struct vtHeightField vtHeightField;
+
+#define VT_MAX_RELIEF_SIDE 4096
+
+/// A slab of glass whose front is a height field. It faces +z, is centred on the z axis, its longer side is 2
+/// and its cells are square; height 0 lies at z = 0.
+typedef struct vtReliefDef {
+    const float* heights; ///< width * height, top row first; vtCreateRelief only
+    int width, height;    ///< samples, 2 to VT_MAX_RELIEF_SIDE; vtLoadRelief knows them itself
+    float depth;          ///< what height 1 stands for, 0 (flat) to 10; default 0.1
+    float thickness; ///< of the slab behind height 0, or behind the lowest if that is lower, 0.001 to 10;
+                     ///< default 0.1
+    /// Standard deviation of a Gaussian that the heights are smoothed with, samples, 0 (not at all) to 64.
+    /// -1, the default: 0, but 2 for pictures of 8 bits, whose 256 heights are steps that glass shows;
+    /// vtLoadRelief only.
+    float smoothing;
+} vtReliefDef;
+vtReliefDef vtDefaultRelief(void);
+
+/// A mesh of these heights. It has bounds, but no triangles: technique `heightfield` needs none, the others
+/// do (vtTriangulateRelief). Fails with vt_errorGeometry or vt_errorArgument for numbers out of range; `name`
+/// goes into the sentence. On failure *mesh is zeroed.
+vtResult vtCreateRelief(const vtReliefDef* def, const char* name, vtMesh* mesh, vtError* error);
+
+/// The same of a file held in memory: .png or .jpg of 8 or 16 bits, black 0 and white 1, colours by their
+/// luma; .hdr or .pfm, the least number 0 and the greatest 1. A build for web pages decodes the last two
+/// only.
+vtResult vtLoadRelief(const void* bytes, size_t size, const char* name, const vtReliefDef* def, vtMesh* mesh,
+                      vtError* error);
+
+/// The same of a built-in pattern: ripples hammered fluted lens-array. def->width and height are its samples;
+/// 0: 512.
+vtResult vtCreateReliefPattern(const char* name, const vtReliefDef* def, vtMesh* mesh, vtError* error);
+
+/// Names of the patterns, by index; NULL past the end.
+const char* vtReliefPatternName(int index);
+const char* vtReliefPatternSummary(int index);
+
+/// Gives a relief its triangles, two a cell of the front; 4096 x 4096 samples are 33.5 million and 1.2 GB.
+/// Does nothing where they are there already or the mesh is no relief.
+vtResult vtTriangulateRelief(vtMesh* mesh, vtError* error);
 
 // ----------------------------------------------------------------------------------------------- scene
 

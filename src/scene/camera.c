@@ -91,14 +91,17 @@ vtFrustum vtMakeLayerFrustum(const vtView* view, vtVec3 boundsMin, vtVec3 bounds
     return frustum;
 }
 
-/// How far along `direction` from the centre an eye must stand so that the vertices lie inside 90 % of the
-/// frame.
+/// How far along `direction` from the centre an eye must stand so that the vertices, of a relief its box's
+/// corners, lie inside 90 % of the frame.
 static float frameDistance(const vtMesh* mesh, const vtTransform* toWorld, vtVec3 centre,
                            const vtCameraFrame* camera, float tangentX, float tangentY)
 {
+    const vtVec3 low = mesh->boundsMin, high = mesh->boundsMax;
+    const bool isRelief = mesh->heights != NULL;
     float distance = 0.0f;
-    for (uint32_t i = 0; i < mesh->indexCount; ++i) {
-        const vtVec3 p = vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]);
+    for (uint32_t i = 0; i < (isRelief ? 8 : mesh->indexCount); ++i) {
+        const vtVec3 corner = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+        const vtVec3 p = isRelief ? corner : vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]);
         const vtVec3 offset = vtSub(vtTransformPoint(toWorld, p), centre);
         const float x = fabsf(vtDot(offset, camera->right)), y = fabsf(vtDot(offset, camera->up));
         distance = fmaxf(distance, fmaxf(x / tangentX, y / tangentY) - vtDot(offset, camera->forward));

@@ -8,6 +8,7 @@
 // Geometry is computed in double: the products of two finite floats neither overflow nor vanish there.
 #include "base/error.h"
 #include "base/math.h"
+#include "scene/height_field.h"
 #include "scene/weld.h"
 
 #include <assert.h>
@@ -369,5 +370,6 @@ void vtDestroyMesh(vtMesh* mesh)
     free(mesh->innerDistances);
     free(mesh->texcoords);
     free(mesh->colors);
+    vtDestroyHeightField(mesh->heights);
     *mesh = (vtMesh){0};
 }

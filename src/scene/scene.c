@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "scene/height_field.h"
 #include "scene/objects.h"
 
 vtMaterial vtDefaultMaterial(void)
@@ -170,6 +171,9 @@ static bool isFinite(const vtTransform* t)
 static double volumeOf(const vtPlacedObject* placed)
 {
     const vtMesh* mesh = placed->mesh;
+    if (mesh->heights != NULL) {
+        return fabs(6.0 * vtHeightField_Volume(mesh->heights) * (double)determinant(&placed->toWorld));
+    }
     const vtVec3 origin = vtMakeVec3(mesh->positions);
     double sum = 0.0;
     for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
@@ -370,9 +374,12 @@ bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point)
         point.z > high.z) {
         return false;
     }
-    // The winding number, by the triangles' solid angles (van Oosterom & Strackee 1983).
     const vtMesh* mesh = placed->mesh;
     const vtVec3 p = vtTransformPoint(&placed->toObject, point);
+    if (mesh->heights != NULL) {
+        return vtHeightField_Contains(mesh->heights, p);
+    }
+    // The winding number, by the triangles' solid angles (van Oosterom & Strackee 1983).
     double sum = 0.0;
     for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
         const vtVec3 a = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), p);
