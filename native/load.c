@@ -196,14 +196,15 @@ static vtResult loadObjects(const vtOptions* options, vtScene* scene, vtError* e
     return result;
 }
 
-/// What technique `wyman` needs.
-static vtResult measureInnerDistances(vtScene* scene, vtError* error)
+/// Whatever the command draws has what it needs.
+static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError* error)
 {
+    const vtTechnique technique = vtFindTechnique(options->technique);
     vtResult result = vt_ok;
-    for (uint32_t i = 0; i < scene->meshCount && result == vt_ok; ++i) {
-        result = isGlassMesh(scene, i) ? vtComputeInnerDistances(&scene->meshes[i], error) : vt_ok;
+    if (options->innerDistances) {
+        result = vtPrepareScene(scene, vt_techniqueWyman, NULL, error);
     }
-    return result;
+    return result == vt_ok ? vtPrepareScene(scene, technique, NULL, error) : result;
 }
 
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
@@ -216,9 +217,8 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
     if (result == vt_ok) {
         result = loadEnvironment(options->environment, &input->environment, error);
     }
-    if (result == vt_ok &&
-        (options->innerDistances || vtFindTechnique(options->technique) == vt_techniqueWyman)) {
-        result = measureInnerDistances(&input->scene, error);
+    if (result == vt_ok) {
+        result = prepareMeshes(options, &input->scene, error);
     }
     if (result != vt_ok) {
         vtDestroyInput(input);

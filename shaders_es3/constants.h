@@ -67,8 +67,8 @@
 #define VT_OBJECT_IMAGES 14   // base colour and metallic-roughness image, or VT_NO_TRIANGLE; number of its first triangle; 0
 #define VT_OBJECT_FRUSTUM 15  // layered: tangents of its layers' frustum, left, bottom, right, top
 #define VT_OBJECT_DEPTHS 16   // layered: of that frustum: near, far, 1 / (far - near); 0
-#define VT_OBJECT_OWN_LOW 17  // box of its mesh, own coordinates; 0
-#define VT_OBJECT_OWN_HIGH 18
+#define VT_OBJECT_OWN_LOW 17  // box of its mesh, own coordinates; 1 where it is searched by its heights
+#define VT_OBJECT_OWN_HIGH 18 // the same; side of a cell of those heights
 
 // Attribute records: three texels a triangle, one a corner: texture coordinates (bits of floats), colour (three
 // halves); as many triangles a row as triangle records.

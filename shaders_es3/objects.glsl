@@ -43,6 +43,12 @@ vec3 normalToWorld(Transform t, vec3 n)
 
 const float NOWHERE = 1e30; // farther than anything
 
+// Where a path meets an object.
+struct Meeting {
+    float distance; // in the world
+    uint triangle;
+};
+
 // Does a ray come into the object's box before `farthest`?
 bool entersBox(int object, vec3 origin, vec3 direction, float farthest)
 {

@@ -1,8 +1,29 @@
 // Follows the path of each pixel that sees glass, event by event, until it has left all glass for good or ends on
-// something opaque.
+// something opaque. WITH_HEIGHTS: reliefs are met by their heights, all else by its layers.
 
 // Far more surfaces than paths meet, so that no fault of the data hangs the GPU.
 const int MOST_SURFACES = 256;
+
+bool searchObject(vec3 origin, vec3 direction, int object, bool inside, bool isOther, float farthest, out Meeting meeting)
+{
+#ifdef WITH_HEIGHTS
+    if (isRelief(object)) {
+        return searchHeights(origin, direction, object, inside, farthest, meeting);
+    }
+#endif
+    return searchCube(origin, direction, object, inside, isOther, farthest, u_search.y, meeting);
+}
+
+// `from`: where the path came from, `position`: where it has met the object.
+SurfaceHit surfaceOf(int object, uint triangle, vec3 from, vec3 position, vec3 direction)
+{
+#ifdef WITH_HEIGHTS
+    if (isRelief(object)) {
+        return heightsSurfaceAt(object, triangle, position);
+    }
+#endif
+    return surfaceAt(object, triangle, from, direction);
+}
 
 void main()
 {
@@ -44,7 +65,7 @@ void main()
                 continue;
             }
             Meeting meeting;
-            isMissed = !searchObject(p.position, p.direction, object, inside, object != met, nearest.distance + same, u_search.y, meeting) || isMissed;
+            isMissed = !searchObject(p.position, p.direction, object, inside, object != met, nearest.distance + same, meeting) || isMissed;
             // Touching glass is crossed at once.
             bool isSame = abs(meeting.distance - nearest.distance) <= same && meeting.distance < NOWHERE;
             also = isSame && object < u_scene.x ? object : also;
@@ -65,8 +86,9 @@ void main()
             status = VT_PATH_OPAQUE;
             break;
         }
-        hit = surfaceAt(met, nearest.triangle, p.position, p.direction);
+        vec3 from = p.position;
         p.position += nearest.distance * p.direction;
+        hit = surfaceOf(met, nearest.triangle, from, p.position, p.direction);
         isMet = true;
     }
     writePathEnd(p, status, nearest.triangle, status == VT_PATH_OPAQUE ? met : -1);

@@ -165,21 +165,8 @@ void walkTiles(inout Search s, bool inside)
         if (s.isOver || (!isFree && s.level == 0) || --s.steps < 0) {
             return;
         }
-        // Into the next tile, or down. Along the side that is crossed, the cell is the one that a walk from
-        // cell to cell would come to, by the same numbers, columns before rows where they tie.
-        bool across = p.exits.x <= p.exits.y;
-        vec3 other = across ? vec3(s.ray.origin.y, s.ray.direction.y, s.ray.inverse.y)
-                            : vec3(s.ray.origin.x, s.ray.direction.x, s.ray.inverse.x);
-        int ahead = across ? s.positive.y : s.positive.x;
-        float side = floor(other.x + p.leave * other.y);
-        float before = (side + float(1 - ahead) - other.x) * other.z, behind = (side + float(ahead) - other.x) * other.z;
-        float back = (across ? before >= p.leave : before > p.leave) ? 1.0 : 0.0;
-        float on = (across ? behind < p.leave : behind <= p.leave) ? 1.0 : 0.0;
-        int along = int(side) + int(on - back) * (2 * ahead - 1);
-        ivec2 corner = tile << s.level;
-        ivec2 next = clamp(ivec2(along), corner, corner + (1 << s.level) - 1);
-        ivec2 beyond = ((tile + s.positive) << s.level) - 1 + s.positive;
-        next = across ? ivec2(beyond.x, next.y) : ivec2(next.x, beyond.y);
+        // Into the next tile, or down.
+        ivec2 next = cellBeyond(s.ray.origin, s.ray.direction, s.ray.inverse, s.positive, tile, s.level, p.exits, p.leave);
         // Up only out of the tile above: the way down was there for a reason.
         bool leavesAbove = (next >> (s.level + 1)) != (s.cell >> (s.level + 1));
         int up = leavesAbove ? min(s.level + 1, u_cube.w) : s.level;
@@ -213,12 +200,6 @@ int nearestSurface(Search s, Passage p, ivec2 texel, float window, uint kind)
     }
     return best;
 }
-
-// Where a path meets an object.
-struct Meeting {
-    float distance; // in the world
-    uint triangle;
-};
 
 // Does a triangle near the cell lie in the ray's way? attempt 0: one of the column nearest to the ray, of the
 // kind that the ray looks for; 1: one of the nearest column that has any; 2 to 5: of any kind in the cell's
@@ -259,7 +240,7 @@ const int MOST_ROUNDS = 1024;
 
 // Where a path meets an object next, its triangle VT_NO_TRIANGLE where it does not before `farthest`. False where it
 // must have met it, unnoticed. isOther: the path is not on its surface now. `steps`: texels of the pyramid read.
-bool searchObject(vec3 origin, vec3 direction, int object, bool inside, bool isOther, float farthest, int steps,
+bool searchCube(vec3 origin, vec3 direction, int object, bool inside, bool isOther, float farthest, int steps,
                   out Meeting meeting)
 {
     meeting = Meeting(NOWHERE, VT_NO_TRIANGLE);

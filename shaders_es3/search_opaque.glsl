@@ -16,7 +16,7 @@ OpaqueHit searchOpaque(vec3 origin, vec3 direction, float farthest)
             continue;
         }
         Meeting meeting;
-        searchObject(origin, direction, object, false, true, hit.distance, MOST_OPAQUE_STEPS, meeting);
+        searchCube(origin, direction, object, false, true, hit.distance, MOST_OPAQUE_STEPS, meeting);
         if (meeting.distance < hit.distance) {
             hit = OpaqueHit(meeting.distance, meeting.triangle, object);
         }

@@ -104,7 +104,7 @@ static void writeObject(const vtSceneBuffer* scene, const vtObjectBuffer* object
     words[4 * VT_OBJECT_IMAGES + 2] = mesh->firstTriangle;
     const vtVec3 low = object->ownMin, high = object->ownMax;
     writeNumbers(words, VT_OBJECT_OWN_LOW, low.x, low.y, low.z, 0.0f);
-    writeNumbers(words, VT_OBJECT_OWN_HIGH, high.x, high.y, high.z, 0.0f);
+    writeNumbers(words, VT_OBJECT_OWN_HIGH, high.x, high.y, high.z, scene->heights.cell);
 }
 
 /// The slot of those there are that holds the same, or a new one.
@@ -178,7 +178,9 @@ vtResult vtCreateLayout(const vtSceneBuffer* scene, const vtFrame* frame, vtLayo
         // A little more than the box: a ray that starts on its side is within it. Layers are widened by whole
         // texels (search_layered.glsl).
         writeObject(scene, object, frame->ior, peeled ? 0.0f : 1e-5f, words);
-        if (row->cube || object->material.opaque) {
+        if (row->heights && vtSceneBuffer_HasHeights(scene, i)) {
+            words[4 * VT_OBJECT_OWN_LOW + 3] = 1;
+        } else if (row->cube || object->material.opaque) {
             placeLayers(scene, frame, object, layout, words);
         } else if (peeled) {
             writeFrustum(frame, &object->placed, i, words);

@@ -258,6 +258,12 @@ static bool hasOpaque(const vtRenderer* renderer)
     return renderer->scene.objectCount > renderer->scene.glassCount;
 }
 
+static vtSurfaceKind chooseSurfaceKind(const vtFrame* frame)
+{
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    return row->heights ? vt_surfaceHeights : row->innerDistances ? vt_surfaceDistances : vt_surfacePlain;
+}
+
 static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
                               vtError* error)
 {
@@ -271,7 +277,7 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     vtResult result = vt_ok;
     if (row->surface) {
         result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
-                                      row->innerDistances, error);
+                                      chooseSurfaceKind(frame), error);
     }
     if (result == vt_ok) {
         result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height,
@@ -449,7 +455,7 @@ static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, const vtRefr
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t object = scene->order[i];
         if (count > 1) {
-            vtSurfacePass_Draw(&renderer->surface, gl, scene, object, object + 1, false,
+            vtSurfacePass_Draw(&renderer->surface, gl, scene, object, object + 1, vt_surfacePlain,
                                renderer->emptyVertexArray);
             gl->BindVertexArray(renderer->emptyVertexArray);
             endStage(frame, "surface");
@@ -458,7 +464,8 @@ static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, const vtRefr
         endStage(frame, "refract");
     }
     if (count > 1) {
-        vtSurfacePass_Draw(&renderer->surface, gl, scene, 0, count, false, renderer->emptyVertexArray);
+        vtSurfacePass_Draw(&renderer->surface, gl, scene, 0, count, vt_surfacePlain,
+                           renderer->emptyVertexArray);
         gl->BindVertexArray(renderer->emptyVertexArray);
         endStage(frame, "surface");
     }
@@ -472,7 +479,7 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
     const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
     if (row->surface) {
         vtSurfacePass_Draw(&renderer->surface, gl, &renderer->scene, 0, renderer->scene.glassCount,
-                           row->innerDistances, renderer->emptyVertexArray);
+                           chooseSurfaceKind(frame), renderer->emptyVertexArray);
         endStage(frame, "surface");
     }
     if (layersToo && row->layers != 0) {
@@ -501,6 +508,7 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
                                     .triangles = &renderer->scene.triangles,
                                     .cubeColumns = &renderer->cube.columns,
                                     .objects = &renderer->scene.table,
+                                    .heights = &renderer->scene.heights,
                                     .countReads = frame->countReads};
     const int branches = vtFrame_BranchCount(frame);
     const vtPathTargets* paths = NULL;
@@ -585,6 +593,29 @@ static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
     return vt_ok;
 }
 
+/// What a technique needs of the scene's meshes is there (vtPrepareScene).
+static vtResult checkMeshes(const vtSceneBuffer* scene, const vtTechniqueRow* row, vtError* error)
+{
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtMeshBuffer* mesh = &scene->meshes[scene->objects[i].mesh];
+        const bool byHeights = row->heights && vtSceneBuffer_HasHeights(scene, i);
+        if (!byHeights && mesh->indexCount == 0) {
+            return vtFail(error, vt_errorArgument,
+                          "technique '%s' needs triangles, which a relief in the scene does not have; call "
+                          "vtPrepareScene for the technique before vtRenderer_SetScene",
+                          row->info.id);
+        }
+        if (i < scene->glassCount && row->innerDistances && mesh->distances == 0) {
+            return vtFail(
+                error, vt_errorArgument,
+                "technique '%s' needs inner distances; call vtPrepareScene for the technique before "
+                "vtRenderer_SetScene",
+                row->info.id);
+        }
+    }
+    return vt_ok;
+}
+
 vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* error)
 {
     assert(renderer->scene.objectCount > 0 && "set a scene before drawing");
@@ -592,18 +623,15 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     if (result != vt_ok) {
         return result;
     }
-    const vtFrame resolved = vtResolveFrame(asked);
+    vtFrame resolved = vtResolveFrame(asked);
+    if (resolved.technique == vt_techniqueHeightField && renderer->scene.heights.cell == 0.0f) {
+        resolved.technique = vt_techniqueExact; // the same without a relief
+    }
     const vtFrame* frame = &resolved;
     const vtGL* gl = &renderer->gl;
-    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
-    for (uint32_t i = 0; i < renderer->scene.glassCount && row->innerDistances; ++i) {
-        if (renderer->scene.meshes[renderer->scene.objects[i].mesh].distances == 0) {
-            return vtFail(
-                error, vt_errorArgument,
-                "technique '%s' needs inner distances; call vtComputeInnerDistances for each mesh of glass "
-                "before vtRenderer_SetScene",
-                row->info.id);
-        }
+    result = checkMeshes(&renderer->scene, vtTechnique_Row(frame->technique), error);
+    if (result != vt_ok) {
+        return result;
     }
     vtFrameUniforms uniforms;
     const bool sameRest = renderer->technique == frame->technique &&

@@ -23,6 +23,14 @@
             "u_bvhNodes", "u_bvhTriangles"                                                                   \
     }
 
+// The same with what branches start from, and two more, which the renderer binds.
+#define VT_HEIGHTS_SAMPLERS                                                                                  \
+    {                                                                                                        \
+        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
+            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
+            "u_lightsBefore", "u_asidesBefore", "u_heights", "u_heightRanges"                                \
+    }
+
 // The same with the paths so far.
 #define VT_ORDERED_SAMPLERS                                                                                  \
     {                                                                                                        \
@@ -158,8 +166,8 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                           .vertex = {&vtChunk_screen_vert},
                                           .fragment = {VT_LAYERED_CHUNKS, &vtChunk_with_opaque,
                                                        &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
-                                                       &vtChunk_search_exact, &vtChunk_search_opaque,
-                                                       &vtChunk_refract_layered_frag},
+                                                       &vtChunk_grid_walk, &vtChunk_search_exact,
+                                                       &vtChunk_search_opaque, &vtChunk_refract_layered_frag},
                                           .samplers = VT_REFRACT_SAMPLERS},
             .refract[vt_variantOrdered] = {.name = "layered ordered",
                                            .vertex = {&vtChunk_screen_vert},
@@ -182,9 +190,31 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                        .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
                                                     &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
                                                     &vtChunk_first_surface, &vtChunk_triangles, &vtChunk_cube,
-                                                    &vtChunk_walk_mesh, &vtChunk_search_exact,
-                                                    &vtChunk_refract_exact_frag},
+                                                    &vtChunk_walk_mesh, &vtChunk_grid_walk,
+                                                    &vtChunk_search_exact, &vtChunk_refract_exact_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
+        },
+    [vt_techniqueHeightField] =
+        {
+            .info = {.id = "heightfield",
+                     .summary = "as exact, but a relief by its heights alone: no triangles, no layers",
+                     .source = "Tevs, Ihrke & Seidel, Maximum Mipmaps for Height Field Rendering; Weng",
+                     .year = 2008,
+                     .refracts = true},
+            .surface = true,
+            .cube = true,
+            .findsOpaque = true,
+            .branches = true,
+            .heights = true,
+            .refract[vt_variantAny] = {.name = "heightfield",
+                                       .vertex = {&vtChunk_screen_vert},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
+                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
+                                                    &vtChunk_first_surface, &vtChunk_triangles, &vtChunk_cube,
+                                                    &vtChunk_walk_mesh, &vtChunk_grid_walk,
+                                                    &vtChunk_search_exact, &vtChunk_search_heights,
+                                                    &vtChunk_refract_exact_frag},
+                                       .samplers = VT_HEIGHTS_SAMPLERS},
         },
 #ifdef VT_WITH_BVH
     [vt_techniqueBvh] =

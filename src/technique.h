@@ -33,6 +33,7 @@ typedef struct vtTechniqueRow {
     bool branches;                         ///< can follow light that left a path
     bool findsOpaque;                      ///< meets what is opaque on its paths
     bool merge;                            ///< layers merged and gathered four to a texel
+    bool heights;                          ///< searches a relief by its heights
     bool bvh;                              ///< hierarchy over the triangles
     vtProgramDef refract[vt_variantCount]; ///< those without a name are not there
 } vtTechniqueRow;

@@ -317,6 +317,7 @@ typedef enum vtTechnique {
     vt_techniqueOliveira,
     vt_techniqueLayered,
     vt_techniqueExact,
+    vt_techniqueHeightField,
 #ifdef VT_WITH_BVH // a yardstick, kept out of web pages
     vt_techniqueBvh,
 #endif
@@ -335,6 +336,11 @@ const vtTechniqueInfo* vtTechnique_Info(vtTechnique technique);
 
 /// The technique of that id, or vt_techniqueCount.
 vtTechnique vtFindTechnique(const char* id);
+
+/// Gives the scene's meshes what a technique needs and they lack: `wyman` inner distances, all but
+/// `heightfield` (of the first relief) triangles. *changed (may be NULL): whether there was something. Fails
+/// as vtComputeInnerDistances and vtTriangulateRelief do.
+vtResult vtPrepareScene(vtScene* scene, vtTechnique technique, bool* changed, vtError* error);
 
 typedef enum vtOutput {
     vt_outputPicture = VT_OUTPUT_PICTURE,   ///< the glass before its environment, sRGB

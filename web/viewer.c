@@ -87,10 +87,10 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenPicture(vtViewer* viewer, uint8_t*
 static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
 {
     vtResult result = vtValidateFrame(frame, &viewer->error);
-    if (result == vt_ok && frame->technique == vt_techniqueWyman) {
-        bool measured;
-        result = vtMeasureInnerDistances(&viewer->scene, &measured, &viewer->error);
-        if (result == vt_ok && measured) {
+    if (result == vt_ok) {
+        bool changed;
+        result = vtPrepareScene(&viewer->scene, frame->technique, &changed, &viewer->error);
+        if (result == vt_ok && changed) {
             result = vtRenderer_SetScene(viewer->renderer, &viewer->scene, &viewer->error);
         }
     }

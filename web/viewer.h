@@ -31,6 +31,3 @@ typedef struct vtSceneFacts {
     float ior; ///< in the picture; 0: not all of it has the same, or there is none
 } vtSceneFacts;
 vtSceneFacts vtViewer_SceneFacts(const vtViewer* viewer);
-
-/// What technique `wyman` needs, for all glass; *measured: there was something to do.
-vtResult vtMeasureInnerDistances(vtScene* scene, bool* measured, vtError* error);

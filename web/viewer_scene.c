@@ -105,7 +105,10 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_SetImage(vtViewer* viewer, int index, uint8_t
 /// Shows the scene that was begun; where it cannot be uploaded, the one before stays.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Show(vtViewer* viewer)
 {
-    const vtResult result = vtRenderer_SetScene(viewer->renderer, &viewer->next, &viewer->error);
+    vtResult result = vtPrepareScene(&viewer->next, viewer->frame.technique, NULL, &viewer->error);
+    if (result == vt_ok) {
+        result = vtRenderer_SetScene(viewer->renderer, &viewer->next, &viewer->error);
+    }
     if (result == vt_ok) {
         vtDestroyScene(&viewer->scene);
         viewer->scene = viewer->next;
@@ -159,20 +162,6 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_UseCamera(vtViewer* viewer, int index)
 static const vtMaterial* materialOf(const vtScene* scene, uint32_t object)
 {
     return &scene->materials[scene->objects[object].material];
-}
-
-vtResult vtMeasureInnerDistances(vtScene* scene, bool* measured, vtError* error)
-{
-    vtResult result = vt_ok;
-    *measured = false;
-    for (uint32_t i = 0; i < scene->objectCount && result == vt_ok; ++i) {
-        vtMesh* mesh = &scene->meshes[scene->objects[i].mesh];
-        if (!materialOf(scene, i)->opaque && mesh->innerDistances == NULL) {
-            result = vtComputeInnerDistances(mesh, error);
-            *measured = true;
-        }
-    }
-    return result;
 }
 
 vtSceneFacts vtViewer_SceneFacts(const vtViewer* viewer)

@@ -138,7 +138,7 @@ static bool makeLayer(const vtImage* image, Use use, int side, uint8_t* layer)
 
 static vtTexture makeArray(const vtGL* gl, int side, int layers)
 {
-    vtTexture made = {0, GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, side, side, layers};
+    vtTexture made = {0, GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, side, side, layers, true};
     int levels = 1;
     while (side >> levels > 0) {
         ++levels;

@@ -57,8 +57,8 @@ static vtResult uploadTriangles(vtSceneBuffer* buffer, const vtGL* gl, const vtS
         free(own);
     }
     if (ready) {
-        vtTexture_UploadRecords(&buffer->triangles, gl, records, (int)count, VT_TRIANGLE_WORDS / 4,
-                                VT_TRIANGLES_A_ROW);
+        vtTexture_UploadRecords(&buffer->triangles, gl, records, count > 0 ? (int)count : 1,
+                                VT_TRIANGLE_WORDS / 4, VT_TRIANGLES_A_ROW);
     }
     free(records);
     return ready ? vt_ok : vtFail(error, vt_errorMemory, "scene: out of memory for %u triangles", count);
@@ -121,7 +121,7 @@ static vtResult uploadMeshes(vtSceneBuffer* buffer, const vtGL* gl, const vtScen
     }
     buffer->meshCount = scene->meshCount;
     for (uint32_t i = 0; i < scene->meshCount && result == vt_ok; ++i) {
-        if (uses[i].used) {
+        if (uses[i].used && scene->meshes[i].indexCount > 0) {
             result =
                 vtMeshBuffer_Create(&buffer->meshes[i], gl, &scene->meshes[i], uses[i].firstTriangle, error);
             buffer->cubeFrames[i] = vtFitCube(&scene->meshes[i]);
@@ -196,6 +196,10 @@ static vtResult createBuffer(vtSceneBuffer* buffer, const vtGL* gl, const vtScen
         result = vtImageArray_Upload(&buffer->images, gl, scene, error);
     }
     keepObjects(buffer, scene, placed, uses);
+    buffer->heightsMesh = vtScene_Relief(scene);
+    if (buffer->heightsMesh < scene->meshCount && result == vt_ok) {
+        vtHeightTexture_Create(&buffer->heights, gl, scene->meshes[buffer->heightsMesh].heights);
+    }
     buffer->meshBytes += vtTexture_Bytes(&buffer->triangles);
     return result == vt_ok ? vtCheckGL(gl, "uploading the scene", error) : result;
 }
@@ -230,6 +234,7 @@ void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl)
     free(buffer->words);
     free(buffer->order);
     vtTexture_Destroy(&buffer->triangles, gl);
+    vtHeightTexture_Destroy(&buffer->heights, gl);
     vtTexture_Destroy(&buffer->attributes, gl);
     vtTexture_Destroy(&buffer->images, gl);
     vtTexture_Destroy(&buffer->table, gl);
@@ -296,10 +301,23 @@ static const vtMeshBuffer* setObject(const vtSceneBuffer* buffer, const vtGL* gl
 }
 
 void vtSceneBuffer_Draw(const vtSceneBuffer* buffer, const vtGL* gl, const vtObjectUniforms* uniforms,
-                        uint32_t first, uint32_t last)
+                        uint32_t first, uint32_t last, bool heights)
 {
     for (uint32_t i = first; i < last; ++i) {
-        vtMeshBuffer_Draw(setObject(buffer, gl, uniforms, i), gl);
+        if (!heights || !vtSceneBuffer_HasHeights(buffer, i)) {
+            vtMeshBuffer_Draw(setObject(buffer, gl, uniforms, i), gl);
+        }
+    }
+}
+
+void vtSceneBuffer_DrawHeights(const vtSceneBuffer* buffer, const vtGL* gl, const vtObjectUniforms* uniforms,
+                               uint32_t first, uint32_t last)
+{
+    for (uint32_t i = first; i < last; ++i) {
+        if (vtSceneBuffer_HasHeights(buffer, i)) {
+            setObject(buffer, gl, uniforms, i);
+            gl->DrawArrays(GL_TRIANGLES, 0, 36);
+        }
     }
 }
 
@@ -314,5 +332,5 @@ void vtSceneBuffer_DrawTriangles(const vtSceneBuffer* buffer, const vtGL* gl,
 size_t vtSceneBuffer_TextureBytes(const vtSceneBuffer* buffer)
 {
     return vtTexture_Bytes(&buffer->attributes) + vtTexture_Bytes(&buffer->images) +
-           vtTexture_Bytes(&buffer->table);
+           vtTexture_Bytes(&buffer->table) + vtHeightTexture_Bytes(&buffer->heights);
 }

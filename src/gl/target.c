@@ -12,7 +12,7 @@ bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int wid
         return false;
     }
     vtTexture_Destroy(texture, gl);
-    *texture = (vtTexture){0, target, format, width, height, layers};
+    *texture = (vtTexture){0, target, format, width, height, layers, false};
     gl->GenTextures(1, &texture->name);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(target, texture->name);
@@ -55,12 +55,14 @@ static size_t bytesPerTexel(GLenum format)
     case GL_RGBA8:
     case GL_SRGB8_ALPHA8:
     case GL_DEPTH_COMPONENT32F:
+    case GL_R32F:
         return 4;
     case GL_RGB16F:
         return 6;
     case GL_RG32UI:
     case GL_RGBA16UI:
     case GL_RGBA16F:
+    case GL_RG32F:
         return 8;
     case GL_RGBA32UI:
         return 16;
@@ -77,8 +79,7 @@ size_t vtTexture_Bytes(const vtTexture* texture)
     }
     size_t layers = texture->layers > 0 ? (size_t)texture->layers : 1;
     size_t bytes = bytesPerTexel(texture->format) * (size_t)texture->width * (size_t)texture->height * layers;
-    // Images of materials (gl/image_array.h) alone have smaller levels: another third.
-    return texture->format == GL_SRGB8_ALPHA8 ? bytes + bytes / 3 : bytes;
+    return texture->mipmapped ? bytes + bytes / 3 : bytes;
 }
 
 void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, int unit)

@@ -9,6 +9,7 @@ typedef struct vtTexture {
     GLenum target;
     GLenum format;
     int width, height, layers;
+    bool mipmapped; ///< down to one texel
 } vtTexture;
 
 /// Makes the texture of that format and size, dropping an older one of another; does nothing where the

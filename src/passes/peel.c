@@ -82,7 +82,7 @@ static void drawLayer(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffe
     gl->ClearBufferuiv(GL_COLOR, 0, noNormal);
     gl->ClearBufferuiv(GL_COLOR, 1, noDepth);
     vtTexture_Bind(&pass->depthBuffers[1 - buffer], gl, 0);
-    vtSceneBuffer_Draw(scene, gl, &pass->uniforms[kind], first, last);
+    vtSceneBuffer_Draw(scene, gl, &pass->uniforms[kind], first, last, false);
 }
 
 static void peelSet(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene, vtPeelKind kind,

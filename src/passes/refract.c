@@ -94,6 +94,10 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
                    : inputs->countReads ? pass->counters[technique][variant]
                                         : pass->programs[technique][variant]);
     bindInputs(gl, inputs);
+    if (vtTechnique_Row(technique)->heights) { // VT_HEIGHTS_SAMPLERS in technique.c
+        vtTexture_Bind(&inputs->heights->heights, gl, 13);
+        vtTexture_Bind(&inputs->heights->ranges, gl, 14);
+    }
     if (before != NULL) {
         vtTexture_Bind(&before->lights, gl, 11);
         vtTexture_Bind(&before->asides, gl, 12);

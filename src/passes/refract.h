@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gl/height_texture.h"
 #include "gl/program.h"
 #include "gl/target.h"
 #include "technique.h"
@@ -41,6 +42,7 @@ typedef struct vtRefractInputs {
     const vtTexture* triangles;
     const vtTexture* cubeColumns;
     const vtTexture* objects;
+    const vtHeightTexture* heights;
     bool countReads;
 } vtRefractInputs;
 

@@ -28,7 +28,7 @@ static const vtProgramDef programDefs[2][2] = {
     {{.name = "shade opaque blended",
       .vertex = {&vtChunk_screen_vert},
       .fragment = {&vtChunk_with_opaque, &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects,
-                   &vtChunk_optics, &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
+                   &vtChunk_optics, &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh, &vtChunk_grid_walk,
                    &vtChunk_search_exact, &vtChunk_search_opaque, &vtChunk_lighting, &vtChunk_shading,
                    &vtChunk_shade_frag},
       .samplers = VT_SHADE_SAMPLERS},
@@ -36,8 +36,8 @@ static const vtProgramDef programDefs[2][2] = {
       .vertex = {&vtChunk_screen_vert},
       .fragment = {&vtChunk_with_opaque, &vtChunk_with_surface, &vtChunk_octahedral, &vtChunk_environment,
                    &vtChunk_objects, &vtChunk_optics, &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
-                   &vtChunk_search_exact, &vtChunk_search_opaque, &vtChunk_lighting, &vtChunk_shading,
-                   &vtChunk_shade_frag},
+                   &vtChunk_grid_walk, &vtChunk_search_exact, &vtChunk_search_opaque, &vtChunk_lighting,
+                   &vtChunk_shading, &vtChunk_shade_frag},
       .samplers = VT_SHADE_SAMPLERS}},
 };
 

@@ -25,6 +25,14 @@ static const vtProgramDef opaqueDefs[2] = {
      .samplers = {"u_triangles"}},
 };
 
+static const vtProgramDef heightsDef = {
+    .name = "surface of heights",
+    .vertex = {&vtChunk_objects, &vtChunk_surface_heights_vert},
+    .fragment = {&vtChunk_octahedral, &vtChunk_objects, &vtChunk_grid_walk, &vtChunk_search_heights,
+                 &vtChunk_surface_heights_frag},
+    .samplers = {"u_objects", "u_heights", "u_heightRanges"},
+};
+
 static vtResult createPrograms(vtSurfacePass* pass, const vtGL* gl, int kind, vtError* error)
 {
     vtResult result = vtCreateProgram(gl, &glassDefs[kind], &pass->glassPrograms[kind], error);
@@ -44,7 +52,7 @@ vtResult vtSurfacePass_Create(vtSurfacePass* pass, const vtGL* gl, vtError* erro
     return createPrograms(pass, gl, 0, error);
 }
 
-vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, bool distances,
+vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, vtSurfaceKind kind,
                               vtError* error)
 {
     bool changed = vtTexture_Resize(&pass->depth, gl, GL_DEPTH_COMPONENT32F, width, height, 0);
@@ -55,7 +63,12 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
         vtDestroyFramebuffers(gl, &pass->framebuffers[1], 1); // it holds the depth that is gone
         result = vtMakeFramebuffer(gl, "surface", colors, 1, &pass->depth, &pass->framebuffers[0], error);
     }
-    if (result != vt_ok || !distances) {
+    if (result == vt_ok && kind == vt_surfaceHeights && pass->heightsProgram == 0) {
+        result = vtCreateProgram(gl, &heightsDef, &pass->heightsProgram, error);
+        pass->heightsUniforms =
+            result == vt_ok ? vtFindObjectUniforms(gl, pass->heightsProgram) : pass->heightsUniforms;
+    }
+    if (result != vt_ok || kind != vt_surfaceDistances) {
         return result;
     }
     if (pass->glassPrograms[1] == 0) {
@@ -70,8 +83,9 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
 }
 
 void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, uint32_t first,
-                        uint32_t last, bool distances, GLuint emptyVertexArray)
+                        uint32_t last, vtSurfaceKind kind, GLuint emptyVertexArray)
 {
+    const bool distances = kind == vt_surfaceDistances, heights = kind == vt_surfaceHeights;
     const float far = 1.0f;
     const GLuint none[4] = {0};
     vtBindFramebuffer(gl, pass->framebuffers[distances], pass->depth.width, pass->depth.height);
@@ -82,7 +96,15 @@ void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtScene
         gl->ClearBufferuiv(GL_COLOR, 1, none);
     }
     gl->UseProgram(pass->glassPrograms[distances]);
-    vtSceneBuffer_Draw(scene, gl, &pass->glassUniforms[distances], first, last);
+    vtSceneBuffer_Draw(scene, gl, &pass->glassUniforms[distances], first, last, heights);
+    if (heights) {
+        gl->UseProgram(pass->heightsProgram);
+        vtTexture_Bind(&scene->table, gl, 0);
+        vtTexture_Bind(&scene->heights.heights, gl, 1);
+        vtTexture_Bind(&scene->heights.ranges, gl, 2);
+        gl->BindVertexArray(emptyVertexArray);
+        vtSceneBuffer_DrawHeights(scene, gl, &pass->heightsUniforms, first, last);
+    }
     if (scene->objectCount > scene->glassCount) {
         gl->UseProgram(pass->opaquePrograms[distances]);
         vtTexture_Bind(&scene->triangles, gl, 0);
@@ -99,6 +121,7 @@ void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl)
     vtTexture_Destroy(&pass->distances, gl);
     vtTexture_Destroy(&pass->depth, gl);
     vtTexture_Destroy(&pass->attributes, gl);
+    gl->DeleteProgram(pass->heightsProgram);
     for (int i = 0; i < 2; ++i) {
         gl->DeleteProgram(pass->glassPrograms[i]);
         gl->DeleteProgram(pass->opaquePrograms[i]);

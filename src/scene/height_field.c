@@ -1,6 +1,7 @@
-// Heights on a grid. The two triangles a cell and the smooth normals are those of Weng, Direct Rendering of Height
-// Fields; the pyramid of lowest and highest heights that of Tevs, Ihrke, Seidel, Maximum Mipmaps for Fast, Accurate, and
-// Scalable Dynamic Height Field Rendering, 2008, with lowest ones beside the highest, as rays run on both sides of glass.
+// Heights on a grid. The two triangles a cell and the smooth normals are those of Weng, Direct Rendering of
+// Height Fields; the pyramid of lowest and highest heights that of Tevs, Ihrke, Seidel, Maximum Mipmaps for
+// Fast, Accurate, and Scalable Dynamic Height Field Rendering, 2008, with lowest ones beside the highest, as
+// rays run on both sides of glass.
 #include "scene/height_field.h"
 
 #include <assert.h>
@@ -39,8 +40,8 @@ static vtResult checkDef(const vtReliefDef* def, const char* name, vtError* erro
     }
     // Written so that NaN fails.
     if (!(def->depth >= 0.0f && def->depth <= 10.0f)) {
-        return vtFail(error, vt_errorArgument, "relief '%.300s': its depth is %g; it must be from 0 to 10", name,
-                      (double)def->depth);
+        return vtFail(error, vt_errorArgument, "relief '%.300s': its depth is %g; it must be from 0 to 10",
+                      name, (double)def->depth);
     }
     if (!(def->thickness >= 0.001f && def->thickness <= 10.0f)) {
         return vtFail(error, vt_errorArgument,
@@ -48,17 +49,18 @@ static vtResult checkDef(const vtReliefDef* def, const char* name, vtError* erro
                       (double)def->thickness);
     }
     if (!(def->smoothing >= 0.0f && def->smoothing <= 64.0f)) {
-        return vtFail(error, vt_errorArgument, "relief '%.300s': smoothing is %g; it must be from 0 to 64", name,
-                      (double)def->smoothing);
+        return vtFail(error, vt_errorArgument, "relief '%.300s': smoothing is %g; it must be from 0 to 64",
+                      name, (double)def->smoothing);
     }
     for (int row = 0; row < def->height; ++row) {
         for (int column = 0; column < def->width; ++column) {
             const float height = def->heights[(size_t)row * (size_t)def->width + (size_t)column];
             if (!isfinite(height) || fabsf(height) > 1e6f) {
-                return vtFail(error, vt_errorGeometry,
-                              "relief '%.300s': the height in column %d, row %d is %g; it must be a number of at most "
-                              "1000000",
-                              name, column, row, (double)height);
+                return vtFail(
+                    error, vt_errorGeometry,
+                    "relief '%.300s': the height in column %d, row %d is %g; it must be a number of at most "
+                    "1000000",
+                    name, column, row, (double)height);
             }
         }
     }
@@ -157,7 +159,8 @@ static bool buildRanges(vtHeightField* field)
     do {
         ++level;
         field->starts[level] = count;
-        count += (size_t)vtHeightField_TileColumns(field, level) * (size_t)vtHeightField_TileRows(field, level);
+        count +=
+            (size_t)vtHeightField_TileColumns(field, level) * (size_t)vtHeightField_TileRows(field, level);
     } while (vtHeightField_TileColumns(field, level) > 1 || vtHeightField_TileRows(field, level) > 1);
     field->levelCount = level;
     field->starts[level + 1] = count;
@@ -212,8 +215,9 @@ vtResult vtCreateRelief(const vtReliefDef* def, const char* name, vtMesh* mesh, 
     vtHeightField* field = calloc(1, sizeof *field);
     if (field == NULL || !fillField(field, def)) {
         vtDestroyHeightField(field);
-        return vtFail(error, vt_errorMemory, "relief '%.300s': out of memory for %d x %d samples; scale it down",
-                      name, def->width, def->height);
+        return vtFail(error, vt_errorMemory,
+                      "relief '%.300s': out of memory for %d x %d samples; scale it down", name, def->width,
+                      def->height);
     }
     const vtVec3 last = vtHeightField_Corner(field, field->width - 1, field->height - 1);
     mesh->heights = field;
@@ -235,8 +239,10 @@ void vtDestroyHeightField(vtHeightField* field)
 
 vtVec3 vtHeightField_Normal(const vtHeightField* field, int column, int row)
 {
-    const int left = clampInt(column - 1, 0, field->width - 1), right = clampInt(column + 1, 0, field->width - 1);
-    const int below = clampInt(row - 1, 0, field->height - 1), above = clampInt(row + 1, 0, field->height - 1);
+    const int left = clampInt(column - 1, 0, field->width - 1),
+              right = clampInt(column + 1, 0, field->width - 1);
+    const int below = clampInt(row - 1, 0, field->height - 1),
+              above = clampInt(row + 1, 0, field->height - 1);
     const float x = vtHeightField_Z(field, right, row) - vtHeightField_Z(field, left, row);
     const float y = vtHeightField_Z(field, column, above) - vtHeightField_Z(field, column, below);
     return vtNormalize((vtVec3){-x / ((float)(right - left) * field->cell),
@@ -337,7 +343,8 @@ bool vtHeightField_Contains(const vtHeightField* field, vtVec3 point)
     const float u = x - (float)column, v = y - (float)row;
     const float corner = vtHeightField_Z(field, column, row);
     const float opposite = vtHeightField_Z(field, column + 1, row + 1);
-    const float z = u >= v ? vtHeightField_Z(field, column + 1, row) : vtHeightField_Z(field, column, row + 1);
+    const float z =
+        u >= v ? vtHeightField_Z(field, column + 1, row) : vtHeightField_Z(field, column, row + 1);
     const float most = fmaxf(u, v), least = fminf(u, v);
     return point.z <= corner + (most - least) * (z - corner) + least * (opposite - corner);
 }

@@ -1,12 +1,13 @@
-// The heights of a relief: a slab of glass whose front is a height field, and what is asked of it where it has no
-// triangles. A mesh (vtMesh.heights) owns one.
+// The heights of a relief: a slab of glass whose front is a height field, and what is asked of it where it
+// has no triangles. A mesh (vtMesh.heights) owns one.
 //
-// The front lies over a grid of samples and faces +z. A cell between four samples is two triangles, its diagonal from
-// the corner of least column and row to the opposite one. Walls stand along the border down to the flat back.
+// The front lies over a grid of samples and faces +z. A cell between four samples is two triangles, its
+// diagonal from the corner of least column and row to the opposite one. Walls stand along the border down to
+// the flat back.
 //
-// Triangles have the numbers that vtTriangulateRelief gives them: first two a cell, row after row, the one below the
-// diagonal first; then two for each segment of the border, counter-clockwise from column 0, row 0; then the back's, of
-// which there are two here and more in the mesh, where they must fit the border.
+// Triangles have the numbers that vtTriangulateRelief gives them: first two a cell, row after row, the one
+// below the diagonal first; then two for each segment of the border, counter-clockwise from column 0, row 0;
+// then the back's, of which there are two here and more in the mesh, where they must fit the border.
 #pragma once
 
 #include "vitrine.h"
@@ -18,17 +19,18 @@ typedef struct vtHeightRange {
 #define VT_MAX_HEIGHT_LEVELS 12
 
 struct vtHeightField {
-    int width, height; ///< samples
-    float cell;        ///< side of a cell
+    int width, height;  ///< samples
+    float cell;         ///< side of a cell
     float left, bottom; ///< x of column 0, y of row 0
-    float back;        ///< z of the back
-    float low, high;   ///< of all z
-    float* z;          ///< width * height, row 0 the lowest
-    /// Lowest and highest z of tiles of cells, level after level, rows of tiles. Tiles of level l, 1 to levelCount, are
-    /// 2^l cells a side; their numbers are powers of two, so that the levels are those of a mipmapped texture. Tiles
-    /// without cells have low > high.
+    float back;         ///< z of the back
+    float low, high;    ///< of all z
+    float* z;           ///< width * height, row 0 the lowest
+    /// Lowest and highest z of tiles of cells, level after level, rows of tiles. Tiles of level l, 1 to
+    /// levelCount, are 2^l cells a side; their numbers are powers of two, so that the levels are those of a
+    /// mipmapped texture. Tiles without cells have low > high.
     vtHeightRange* ranges;
-    size_t starts[VT_MAX_HEIGHT_LEVELS + 2]; ///< of level l in ranges; the last but one of these levels ends them
+    size_t starts[VT_MAX_HEIGHT_LEVELS +
+                  2]; ///< of level l in ranges; the last but one of these levels ends them
     int levelCount;
     int tileColumns, tileRows; ///< of level 1
 };
@@ -71,7 +73,8 @@ static inline vtVec3 vtHeightField_Corner(const vtHeightField* field, int column
 /// Smooth normal at a sample: that of central differences, at the border of one-sided ones.
 vtVec3 vtHeightField_Normal(const vtHeightField* field, int column, int row);
 
-/// Number of segments of the border, and the sample that segment `segment` starts at; the next one starts where it ends.
+/// Number of segments of the border, and the sample that segment `segment` starts at; the next one starts
+/// where it ends.
 uint32_t vtHeightField_SegmentCount(const vtHeightField* field);
 void vtHeightField_BorderSample(const vtHeightField* field, uint32_t segment, int* column, int* row);
 

@@ -19,6 +19,10 @@ typedef struct vtPlacedObject {
 /// into the scene. Fails as vtValidateScene does, and with vt_errorMemory.
 vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error);
 
+/// The first mesh that is a relief and glass, the one that technique `heightfield` draws by its heights;
+/// meshCount: there is none.
+uint32_t vtScene_Relief(const vtScene* scene);
+
 /// Does the object's mesh, which is closed, contain the point (world)?
 bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point);
 

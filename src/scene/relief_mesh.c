@@ -1,5 +1,6 @@
-// Triangles of a relief. The front and the walls have them at every sample; the flat back, whose border must fit the
-// walls', has rings of triangles that double their size from one to the next inwards, so that it costs next to nothing.
+// Triangles of a relief. The front and the walls have them at every sample; the flat back, whose border must
+// fit the walls', has rings of triangles that double their size from one to the next inwards, so that it
+// costs next to nothing.
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -38,7 +39,8 @@ static void addFront(vtMesh* mesh, const vtHeightField* field)
 {
     for (int row = 0; row < field->height; ++row) {
         for (int column = 0; column < field->width; ++column) {
-            addVertex(mesh, vtHeightField_Corner(field, column, row), vtHeightField_Normal(field, column, row));
+            addVertex(mesh, vtHeightField_Corner(field, column, row),
+                      vtHeightField_Normal(field, column, row));
         }
     }
     const uint32_t width = (uint32_t)field->width;
@@ -59,7 +61,8 @@ static void addWalls(vtMesh* mesh, const vtHeightField* field)
         const vtReliefTriangle wall = vtHeightField_Triangle(field, first + 2 * segment);
         if (vtDot(wall.normals[0], before) < 0.5f) {
             addVertex(mesh, wall.corners[0], wall.normals[0]);
-            addVertex(mesh, vtHeightField_Triangle(field, first + 2 * segment + 1).corners[2], wall.normals[0]);
+            addVertex(mesh, vtHeightField_Triangle(field, first + 2 * segment + 1).corners[2],
+                      wall.normals[0]);
         }
         before = wall.normals[0];
         addVertex(mesh, wall.corners[1], before);
@@ -147,8 +150,8 @@ static void joinRings(vtMesh* mesh, const Ring* outer, const Ring* inner, bool i
         int i = 0, k = 0;
         while (i < outerLength || k < innerLength) {
             const uint32_t a = sideVertex(outer, false, side, i), b = sideVertex(inner, innermost, side, k);
-            const bool goesOuter =
-                k == innerLength || (i < outerLength && (2 * i + 1) * innerLength <= (2 * k + 1) * outerLength);
+            const bool goesOuter = k == innerLength || (i < outerLength && (2 * i + 1) * innerLength <=
+                                                                               (2 * k + 1) * outerLength);
             addTriangle(mesh, a, b,
                         goesOuter ? sideVertex(outer, false, side, i + 1)
                                   : sideVertex(inner, innermost, side, k + 1));
@@ -196,8 +199,8 @@ vtResult vtTriangulateRelief(vtMesh* mesh, vtError* error)
     }
     const size_t samples = (size_t)field->width * (size_t)field->height;
     const size_t border = vtHeightField_SegmentCount(field);
-    // The back's rings have at most as many vertices as two borders, its innermost grid, at most four parts wide, as
-    // many again; a relief that is narrower than that has a grid as its front has.
+    // The back's rings have at most as many vertices as two borders, its innermost grid, at most four parts
+    // wide, as many again; a relief that is narrower than that has a grid as its front has.
     const size_t vertices = samples + 2 * (border + 4) + 5 * border + 64;
     const size_t triangles = vtHeightField_FirstBack(field) + 10 * border + 128;
     mesh->positions = malloc(vertices * 3 * sizeof(float));
@@ -209,10 +212,11 @@ vtResult vtTriangulateRelief(vtMesh* mesh, vtError* error)
         free(mesh->indices);
         mesh->positions = mesh->normals = NULL;
         mesh->indices = NULL;
-        return vtFail(error, vt_errorMemory,
-                      "relief: out of memory for the %zu triangles of %d x %d samples; draw it with technique "
-                      "heightfield, which needs none",
-                      triangles, field->width, field->height);
+        return vtFail(
+            error, vt_errorMemory,
+            "relief: out of memory for the %zu triangles of %d x %d samples; draw it with technique "
+            "heightfield, which needs none",
+            triangles, field->width, field->height);
     }
     mesh->vertexCount = mesh->indexCount = 0;
     addFront(mesh, field);

@@ -358,6 +358,50 @@ vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t*
     return result;
 }
 
+/// Whether an object made of the mesh is opaque, or else one that is not.
+static bool isUsed(const vtScene* scene, uint32_t mesh, bool opaque)
+{
+    bool used = false;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtObject* object = &scene->objects[i];
+        used = used || (object->mesh == mesh && scene->materials[object->material].opaque == opaque);
+    }
+    return used;
+}
+
+uint32_t vtScene_Relief(const vtScene* scene)
+{
+    uint32_t mesh = 0;
+    while (mesh < scene->meshCount && (scene->meshes[mesh].heights == NULL || !isUsed(scene, mesh, false))) {
+        ++mesh;
+    }
+    return mesh;
+}
+
+vtResult vtPrepareScene(vtScene* scene, vtTechnique technique, bool* changed, vtError* error)
+{
+    const uint32_t relief = vtScene_Relief(scene);
+    bool any = false;
+    vtResult result = vtSucceed(error);
+    for (uint32_t i = 0; i < scene->meshCount && result == vt_ok; ++i) {
+        vtMesh* mesh = &scene->meshes[i];
+        const bool byHeights = technique == vt_techniqueHeightField && i == relief && !isUsed(scene, i, true);
+        if (mesh->heights != NULL && mesh->indexCount == 0 && !byHeights) {
+            result = vtTriangulateRelief(mesh, error);
+            any = true;
+        }
+        if (result == vt_ok && technique == vt_techniqueWyman && mesh->innerDistances == NULL &&
+            isUsed(scene, i, false)) {
+            result = vtComputeInnerDistances(mesh, error);
+            any = true;
+        }
+    }
+    if (changed != NULL) {
+        *changed = any;
+    }
+    return result;
+}
+
 vtResult vtValidateScene(const vtScene* scene, vtError* error)
 {
     vtPlacedObject* placed;

@@ -15,10 +15,12 @@ static void createHills(int width, int height, vtMesh* mesh)
     for (int row = 0; row < height; ++row) {
         for (int column = 0; column < width; ++column) {
             const float x = (float)column / (float)(width - 1), y = (float)row / (float)(height - 1);
-            heights[row * width + column] = 0.5f + 0.3f * sinf(9.0f * x + 2.0f) * cosf(7.0f * y) + 0.2f * x * y;
+            heights[row * width + column] =
+                0.5f + 0.3f * sinf(9.0f * x + 2.0f) * cosf(7.0f * y) + 0.2f * x * y;
         }
     }
-    const vtReliefDef def = {.heights = heights, .width = width, .height = height, .depth = 0.3f, .thickness = 0.2f};
+    const vtReliefDef def = {
+        .heights = heights, .width = width, .height = height, .depth = 0.3f, .thickness = 0.2f};
     vtError error;
     assert_int_equal(vtCreateRelief(&def, "hills", mesh, &error), vt_ok);
     free(heights);
@@ -108,7 +110,8 @@ static void testRangesHoldTheirCells(void** state)
                     float low = INFINITY, high = -INFINITY;
                     for (int y = row << level; y <= (row + 1) << level && y < field->height; ++y) {
                         for (int x = column << level; x <= (column + 1) << level && x < field->width; ++x) {
-                            const bool hasCells = column << level < field->width - 1 && row << level < field->height - 1;
+                            const bool hasCells =
+                                column << level < field->width - 1 && row << level < field->height - 1;
                             low = hasCells ? fminf(low, vtHeightField_Z(field, x, y)) : low;
                             high = hasCells ? fmaxf(high, vtHeightField_Z(field, x, y)) : high;
                         }
@@ -147,7 +150,12 @@ static void testSmoothingKeepsTheMean(void** state)
     enum { side = 65 };
     float heights[side * side] = {0};
     heights[side * 32 + 32] = 1.0f;
-    vtReliefDef def = {.heights = heights, .width = side, .height = side, .depth = 1.0f, .thickness = 0.1f, .smoothing = 3.0f};
+    vtReliefDef def = {.heights = heights,
+                       .width = side,
+                       .height = side,
+                       .depth = 1.0f,
+                       .thickness = 0.1f,
+                       .smoothing = 3.0f};
     vtMesh mesh;
     assert_int_equal(vtCreateRelief(&def, "point", &mesh, NULL), vt_ok);
     double sum = 0.0, square = 0.0;
