@@ -6,31 +6,15 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/image.h"
 #include "base/math.h"
 #include "files.h"
 #include "objects.h"
+#include "relief_input.h"
+#include "scene/height_field.h"
+#include "scene/relief.h"
 #include "scene/shapes.h"
 #include "trace.h"
-
-static vtResult loadModelFile(const char* path, vtScene* scene, vtError* error)
-{
-    uint8_t* bytes;
-    size_t size;
-    vtResult result = vtReadFile(path, &bytes, &size, error);
-    if (result != vt_ok) {
-        return result;
-    }
-    char directory[4096] = "";
-    const char* slash = strrchr(path, '/');
-    if (slash != NULL && (size_t)(slash - path) + 1 < sizeof directory) {
-        memcpy(directory, path, (size_t)(slash - path) + 1);
-    }
-    vtModelDef def = {
-        .bytes = bytes, .size = size, .name = path, .directory = directory, .readFile = vtReadFileForModel};
-    result = vtLoadScene(&def, scene, error);
-    free(bytes);
-    return result;
-}
 
 static bool isShape(const char* name)
 {
@@ -58,6 +42,52 @@ static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vt
 }
 
 // ----------------------------------------------------------------------------------------------- objects
+
+/// What a name names. `spec`: of an --object, NULL: of MODEL.
+typedef struct Named {
+    const vtOptions* options;
+    const vtObjectSpec* spec;
+    const char* name;
+} Named;
+
+static vtResult checkKind(const Named* named, vtObjectKind kind, vtError* error)
+{
+    return named->spec != NULL ? vtObjectSpec_Check(named->spec, kind, "--object", error)
+                               : vtCheckReliefOptions(named->options, kind, error);
+}
+
+static vtResult loadModel(const char* path, const void* bytes, size_t size, vtScene* scene, vtError* error)
+{
+    char directory[4096] = "";
+    const char* slash = strrchr(path, '/');
+    if (slash != NULL && (size_t)(slash - path) + 1 < sizeof directory) {
+        memcpy(directory, path, (size_t)(slash - path) + 1);
+    }
+    const vtModelDef def = {
+        .bytes = bytes, .size = size, .name = path, .directory = directory, .readFile = vtReadFileForModel};
+    return vtLoadScene(&def, scene, error);
+}
+
+/// A model or a picture of heights, by what it begins with: standard input has no name.
+static vtResult loadFile(const Named* named, vtScene* scene, vtError* error)
+{
+    uint8_t* bytes;
+    size_t size;
+    vtResult result = vtReadFile(named->name, &bytes, &size, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    const bool isRelief = vtIsPicture(bytes, size);
+    result = checkKind(named, isRelief ? vt_kindReliefFile : vt_kindMesh, error);
+    if (result == vt_ok && isRelief) {
+        const vtReliefDef def = vtMakeReliefDef(named->options, named->spec, -1);
+        result = vtLoadReliefFile(named->name, bytes, size, &def, scene, error);
+    } else if (result == vt_ok) {
+        result = loadModel(named->name, bytes, size, scene, error);
+    }
+    free(bytes);
+    return result;
+}
 
 /// `triangles`: about so many, 0: as built in.
 static vtResult loadShape(const char* name, int triangles, vtScene* scene, vtError* error)
@@ -91,6 +121,14 @@ static bool isGlassMesh(const vtScene* scene, uint32_t mesh)
     return glass;
 }
 
+static void printReliefNotes(const char* name, const vtHeightField* field)
+{
+    fprintf(stderr,
+            "vitrine: '%s': relief of %d x %d samples, cell %g, z %g to %g, back at %g, %.1f MB of heights\n",
+            name, field->width, field->height, (double)field->cell, (double)field->low, (double)field->high,
+            (double)field->back, (double)vtHeightField_Bytes(field) / 1e6);
+}
+
 /// "x.glb", or where it has several meshes "x.glb, mesh 2".
 static void printMeshNotes(const char* name, const vtScene* scene, uint32_t index, bool verbose)
 {
@@ -110,7 +148,9 @@ static void printMeshNotes(const char* name, const vtScene* scene, uint32_t inde
         fprintf(stderr, "vitrine: note: '%s'%s lacks normals; they are computed, smooth over its edges\n",
                 name, which);
     }
-    if (verbose) {
+    if (verbose && mesh->heights != NULL) {
+        printReliefNotes(name, mesh->heights);
+    } else if (verbose) {
         fprintf(stderr, "vitrine: '%s'%s: %u triangles, %u vertices, box %g %g %g to %g %g %g\n", name, which,
                 mesh->indexCount / 3, mesh->vertexCount, (double)mesh->boundsMin.x, (double)mesh->boundsMin.y,
                 (double)mesh->boundsMin.z, (double)mesh->boundsMax.x, (double)mesh->boundsMax.y,
@@ -139,13 +179,29 @@ static void printNotes(const char* name, const vtScene* scene, bool verbose)
     }
 }
 
-static vtResult failUnknown(const char* spec, const char* name, vtError* error)
+static vtResult failUnknown(const char* what, const char* name, vtError* error)
 {
     return vtFail(
         error, vt_errorFile,
-        "--object '%.200s': '%.200s' is neither a built-in shape (see 'vitrine list') nor a file that "
-        "can be read",
-        spec, name);
+        "%s '%.200s' is neither a built-in shape or relief (see 'vitrine list') nor a file that can "
+        "be read",
+        what, name);
+}
+
+/// What a name names: built in, or in a file.
+static vtResult loadNamed(const Named* named, vtScene* scene, vtError* error)
+{
+    const int pattern = vtFindReliefPattern(named->name);
+    if (pattern >= 0) {
+        const vtResult result = checkKind(named, vt_kindReliefPattern, error);
+        const vtReliefDef def = vtMakeReliefDef(named->options, named->spec, pattern);
+        return result == vt_ok ? vtLoadReliefPattern(pattern, &def, scene, error) : result;
+    }
+    if (isShape(named->name)) {
+        const vtResult result = checkKind(named, vt_kindMesh, error);
+        return result == vt_ok ? loadShape(named->name, 0, scene, error) : result;
+    }
+    return loadFile(named, scene, error);
 }
 
 /// Loads what one --object names and puts it into the scene.
@@ -157,13 +213,13 @@ static vtResult addObject(const vtOptions* options, const char* text, vtScene* s
     if (result != vt_ok) {
         return result;
     }
-    if (isShape(spec.name)) {
-        result = loadShape(spec.name, 0, &added, error);
-    } else if (strcmp(spec.name, "-") != 0 && access(spec.name, R_OK) != 0) {
-        result = failUnknown(text, spec.name, error);
-    } else {
-        result = loadModelFile(spec.name, &added, error);
+    const bool isBuiltIn = isShape(spec.name) || vtFindReliefPattern(spec.name) >= 0;
+    if (!isBuiltIn && strcmp(spec.name, "-") != 0 && access(spec.name, R_OK) != 0) {
+        char what[256];
+        snprintf(what, sizeof what, "--object '%.200s':", text);
+        return failUnknown(what, spec.name, error);
     }
+    result = loadNamed(&(Named){options, &spec, spec.name}, &added, error);
     if (result == vt_ok) {
         vtObjectSpec_Apply(&spec, &added);
         printNotes(spec.name, &added, options->verbose);
@@ -174,21 +230,34 @@ static vtResult addObject(const vtOptions* options, const char* text, vtScene* s
     return result;
 }
 
-static vtResult loadObjects(const vtOptions* options, vtScene* scene, vtError* error)
+static vtResult loadMain(const vtOptions* options, vtScene* scene, vtError* error)
 {
     const char* model = options->model;
     if (model == NULL && options->objectCount == 0) {
-        return vtFail(error, vt_errorArgument,
-                      "no model given; name a .glb or .gltf file or a built-in shape (see 'vitrine list')");
+        return vtFail(
+            error, vt_errorArgument,
+            "no model given; name a .glb or .gltf file, a picture of heights or a built-in shape or "
+            "relief (see 'vitrine list')");
     }
-    vtResult result = vt_ok;
-    if (options->triangles > 0) {
-        result = loadShape(model != NULL ? model : "", options->triangles, scene, error);
-    } else if (model != NULL) {
-        result = isShape(model) ? loadShape(model, 0, scene, error) : loadModelFile(model, scene, error);
+    if (model == NULL || options->triangles > 0) {
+        const vtResult result = vtCheckReliefOptions(options, vt_kindMesh, error);
+        return result == vt_ok && options->triangles > 0
+                   ? loadShape(model != NULL ? model : "", options->triangles, scene, error)
+                   : result;
     }
-    if (result == vt_ok && model != NULL) {
-        printNotes(model, scene, options->verbose);
+    // A name without dot or slash was hardly meant as a file.
+    const bool isBuiltIn = isShape(model) || vtFindReliefPattern(model) >= 0;
+    if (!isBuiltIn && strpbrk(model, "./-") == NULL && access(model, R_OK) != 0) {
+        return failUnknown("model", model, error);
+    }
+    return loadNamed(&(Named){options, NULL, model}, scene, error);
+}
+
+static vtResult loadObjects(const vtOptions* options, vtScene* scene, vtError* error)
+{
+    vtResult result = loadMain(options, scene, error);
+    if (result == vt_ok && options->model != NULL) {
+        printNotes(options->model, scene, options->verbose);
     }
     for (int i = 0; i < options->objectCount && result == vt_ok; ++i) {
         result = addObject(options, options->objects[i], scene, error);
@@ -199,12 +268,11 @@ static vtResult loadObjects(const vtOptions* options, vtScene* scene, vtError* e
 /// Whatever the command draws has what it needs.
 static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError* error)
 {
-    const vtTechnique technique = vtFindTechnique(options->technique);
-    vtResult result = vt_ok;
-    if (options->innerDistances) {
-        result = vtPrepareScene(scene, vt_techniqueWyman, NULL, error);
-    }
-    return result == vt_ok ? vtPrepareScene(scene, technique, NULL, error) : result;
+    const vtTechnique technique = options->innerDistances ? vt_techniqueWyman
+                                  : options->triangulates
+                                      ? vt_techniqueExact
+                                      : vtFindTechnique(vtChooseTechnique(options, scene));
+    return vtPrepareScene(scene, technique, NULL, error);
 }
 
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
@@ -292,7 +360,8 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
 {
     *frame = vtDefaultFrame();
     bool isReference = vtIsReference(options);
-    frame->technique = isReference ? frame->technique : vtFindTechnique(options->technique);
+    const char* technique = vtChooseTechnique(options, &input->scene);
+    frame->technique = isReference ? frame->technique : vtFindTechnique(technique);
     if (frame->technique == vt_techniqueCount) {
         return vtFail(error, vt_errorArgument, "technique '%s' is unknown; see 'vitrine list'",
                       options->technique);

@@ -14,11 +14,13 @@ static void printUsage(void)
         "  vitrine compare A B [options]               measure a picture or directions against the truth\n"
         "  vitrine thesis -o FOLDER [--models FOLDER]  the comparisons of Wang & Chi 2014 as a page\n"
         "  vitrine view MODEL [options]                turn the object in a window\n"
-        "  vitrine list                                techniques, shapes, environments\n"
+        "  vitrine list                                techniques, shapes, reliefs, environments\n"
         "  vitrine COMMAND --help                      the options of each\n"
         "  vitrine --version\n"
         "\n"
-        "MODEL is a .glb or .gltf file (- reads a .glb from standard input) or a built-in shape.\n"
+        "MODEL is a .glb or .gltf file, a built-in shape, or a relief: a picture of heights (.png, .jpg, "
+        ".hdr, .pfm)\n"
+        "or a built-in pattern. - reads a file from standard input.\n"
         "Further objects: --object, see 'vitrine render --help'.\n");
 }
 
@@ -34,6 +36,10 @@ static void printList(void)
     printf("shapes:\n");
     for (int i = 0; vtShapeName(i) != NULL; ++i) {
         printf("  %-14s %s\n", vtShapeName(i), vtShapeSummary(i));
+    }
+    printf("reliefs:\n");
+    for (int i = 0; vtReliefPatternName(i) != NULL; ++i) {
+        printf("  %-14s %s\n", vtReliefPatternName(i), vtReliefPatternSummary(i));
     }
     printf("environments:\n");
     for (int i = 0; vtEnvironmentName(i) != NULL; ++i) {
@@ -70,8 +76,8 @@ static int runCommand(int index, int count, char** words)
     if (result == vt_ok && options.help) {
         printf(commands[index].command == vt_commandThesis
                    ? "vitrine %s [options]\n\n"
-                   : "vitrine %s MODEL [options]; MODEL is a .glb or .gltf file or a built-in shape, or left "
-                     "out where --object names what is drawn\n\n",
+                   : "vitrine %s MODEL [options]; MODEL is a .glb or .gltf file, a picture of heights or a "
+                     "built-in shape or relief, or left out where --object names what is drawn\n\n",
                words[0]);
         vtPrintOptions(commands[index].command);
         return 0;

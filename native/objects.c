@@ -16,6 +16,10 @@ static const struct {
     [vt_keyTint] = {"R,G,B", "glass: share of light that passes a surface"},
     [vt_keyAbsorb] = {"R,G,B", "glass: what is left of light after the distance"},
     [vt_keyDistance] = {"D", "of absorb (1); 0 absorbs nothing"},
+    [vt_keyRelief] = {"D", "relief: depth from black to white (0.1; a pattern's own)"},
+    [vt_keySlab] = {"D", "relief: thickness of the glass behind it (0.1)"},
+    [vt_keySmooth] = {"N", "relief: smoothed over so many samples (0; 8 bits: 2)"},
+    [vt_keySamples] = {"N", "built-in relief: samples along a side (512)"},
     [vt_keyOpaque] = {NULL, "not glass"},
     [vt_keyGlass] = {NULL, "glass, whatever else is given"},
     [vt_keyColour] = {"R,G,B", "of what is opaque; makes it so"},
@@ -26,7 +30,9 @@ static const struct {
 
 void vtPrintObjectHelp(void)
 {
-    printf("\n--object NAME[:key=value,key=value,...], NAME a built-in shape or a model file. Keys:\n");
+    printf("\n--object NAME[:key=value,key=value,...], NAME a built-in shape or relief, a model file or a "
+           "picture of "
+           "heights. Keys:\n");
     for (int i = 0; i < vt_keyCount; ++i) {
         const vtObjectKeyInfo* key = vtObjectKey_Info((vtObjectKey)i);
         const char* argument = helps[i].argument;
@@ -49,6 +55,8 @@ void vtPrintObjectHelp(void)
            "    --object cube --object knot:at=0,0,-2\n"
            "  water in a tumbler before a checker plane:\n"
            "    --object tumbler --object water:ior=1.33 --object plane:checker,at=0,0,-2\n"
+           "  rippled glass before a checker plane:\n"
+           "    --object ripples:relief=0.1 --object plane:checker=4,at=0,0,-2\n"
            "  an opaque ball in glass:\n"
            "    --object sphere --object sphere:scale=0.4,colour=0.8,0.1,0.1\n");
 }

@@ -1,4 +1,4 @@
-// --object: a shape or model file, its place and what it is made of.
+// --object: a shape, relief or model file, its place and what it is made of.
 #pragma once
 
 #include "scene/object_spec.h"

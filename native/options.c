@@ -58,6 +58,13 @@ static const Option table[] = {
     {"top-level", 0, kindInteger, AT(topLevel), 0, 9, "N", "exact: highest level of the interval pyramid (7)",
      SCENE},
     {"ior", 0, kindNumber, AT(ior), 1, 4, "N", "index of refraction of all glass (each object's own)", SCENE},
+    {"relief", 0, kindNumber, AT(relief), 0, 10, "DEPTH",
+     "MODEL is a relief: its depth from black to white (0.1; a built-in one's own)", SCENE},
+    {"slab", 0, kindNumber, AT(slab), 0.001, 10, "THICKNESS", "a relief's glass behind black (0.1)", SCENE},
+    {"smooth", 0, kindNumber, AT(smooth), 0, 64, "SAMPLES",
+     "a relief's heights are smoothed over so many (0; pictures of 8 bits 2)", SCENE},
+    {"relief-size", 0, kindInteger, AT(reliefSize), 2, VT_MAX_RELIEF_SIDE, "N",
+     "samples along a side of a built-in relief (512)", SCENE},
     {"transmittance", 0, kindNumber, AT(transmittance), 0, 1, "T",
      "of a surface (kay-linear), of a unit of length (kay-thickness) (0.8)", SCENE},
     {"max-transmittance", 0, kindNumber, AT(maxTransmittance), 0, 1, "T", "kay-nonlinear (0.95)", SCENE},
@@ -185,6 +192,7 @@ static vtResult store(const Option* option, char* value, vtOptions* options, vtE
         return vt_ok;
     }
     if (option->kind == kindText) {
+        options->hasTechnique |= option->offset == AT(technique);
         *(const char**)field = value;
         return vt_ok;
     }
@@ -226,6 +234,11 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         .power = frame.power,
         .samples = command == vt_commandView ? 64 : 1,
         .referenceThreshold = 0.05f,
+        .relief = -1.0f,
+        .slab = -1.0f,
+        .smooth = -1.0f,
+        .triangulates = command == vt_commandLadder || command == vt_commandBench,
+        .hasTechnique = command != vt_commandRender && command != vt_commandView,
     };
 
     // The table in getopt's form.

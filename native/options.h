@@ -6,6 +6,9 @@
 
 #define VT_MAX_OBJECT_OPTIONS 64
 
+/// What `render` and `view` draw a scene with that has reliefs, unless told otherwise.
+#define VT_RELIEF_TECHNIQUE "heightfield"
+
 /// What `bench` measures unless told otherwise.
 #define VT_BENCH_TECHNIQUES "exact,layered,bvh,single"
 
@@ -41,14 +44,18 @@ typedef struct vtOptions {
     int branches; ///< as vtFrame has them
     int samples;  ///< a pixel
     float referenceThreshold;
-    int triangles; ///< of the knot or the torus; 0: as built in
+    float relief, slab, smooth; ///< of MODEL; -1: not given
+    int reliefSize;             ///< samples along a side of a built-in relief
+    int triangles;              ///< of the knot or the torus; 0: as built in
     int rounds, threads;
     int frames; ///< view: close after so many, 0: never
     bool json;
     bool analysis, verbose, help;
     bool fresnelGiven, noFresnel; ///< as given
     bool fresnel;                 ///< what follows from them; never where strict paths are measured
-    bool innerDistances;          ///< set by commands that draw `wyman` whatever the technique option says
+    bool hasTechnique;            ///< given, or a list of them
+    bool triangulates;   ///< several techniques are drawn: reliefs get triangles whatever the option says
+    bool innerDistances; ///< set by commands that draw `wyman` whatever the technique option says
 } vtOptions;
 
 typedef enum vtCommand {

@@ -149,6 +149,8 @@ vtResult vtCreateReliefPattern(const char* name, const vtReliefDef* def, vtMesh*
 /// Names of the patterns, by index; NULL past the end.
 const char* vtReliefPatternName(int index);
 const char* vtReliefPatternSummary(int index);
+/// The depth at which the pattern looks as such glass is made.
+float vtReliefPatternDepth(int index);
 
 /// Gives a relief its triangles, two a cell of the front; 4096 x 4096 samples are 33.5 million and 1.2 GB.
 /// Does nothing where they are there already or the mesh is no relief.

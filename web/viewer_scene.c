@@ -31,6 +31,9 @@ static vtResult add(vtViewer* viewer, vtScene* made, const char* spec)
         result = parsed != NULL ? vtParseObject(spec, "objects", false, parsed, &viewer->error)
                                 : vtFail(&viewer->error, vt_errorMemory, "objects: out of memory");
         if (result == vt_ok) {
+            result = vtObjectSpec_Check(parsed, vt_kindMesh, "objects", &viewer->error);
+        }
+        if (result == vt_ok) {
             vtObjectSpec_Apply(parsed, made);
             place = vtObjectSpec_Place(parsed);
         }

@@ -252,17 +252,124 @@ vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage
     return fillImage(bytes, (int)size, name, image, error);
 }
 
-/// The range every encoder shares.
-static bool sizeIsUsable(int width, int height)
+// --------------------------------------------------------------------------------------------------- heights
+
+bool vtIsPicture(const void* bytes, size_t size)
 {
-    return width >= 1 && height >= 1 && width <= VT_MAX_IMAGE_SIDE && height <= VT_MAX_IMAGE_SIDE;
+    const char* const beginnings[] = {"\x89PNG\r\n\x1a\n", "\xFF\xD8\xFF", "#?RADIANCE", "#?RGBE"};
+    for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; ++i) {
+        const size_t length = strlen(beginnings[i]);
+        if (size >= length && memcmp(bytes, beginnings[i], length) == 0) {
+            return true;
+        }
+    }
+    return vtIsPfm(bytes, size);
 }
 
-static vtResult failSize(int width, int height, vtError* error)
+vtResult vtCheckHeightSides(const char* name, long width, long height, vtError* error)
 {
-    return vtFail(error, vt_errorArgument,
-                  "a picture of %d x %d pixels cannot be written; a side must be 1 to %d", width, height,
-                  VT_MAX_IMAGE_SIDE);
+    if (width < 2 || height < 2 || width > VT_MAX_RELIEF_SIDE || height > VT_MAX_RELIEF_SIDE) {
+        return vtFail(error, vt_errorFormat,
+                      "relief '%.300s' is %ld x %ld samples, but a side must be 2 to %d; scale it", name,
+                      width, height, VT_MAX_RELIEF_SIDE);
+    }
+    return vtSucceed(error);
+}
+
+#ifdef VT_HDR_ONLY
+static float* loadHeights(const uint8_t* bytes, int length, int* width, int* height, int* bits)
+{
+    (void)bytes, (void)length, (void)width, (void)height, (void)bits;
+    return NULL;
+}
+#else
+/// PNG or JPEG of 8 or 16 bits: numbers as the file has them, which for heights are no colours.
+static float* loadHeights(const uint8_t* bytes, int length, int* width, int* height, int* bits)
+{
+    int channels = 0;
+    *bits = stbi_is_16_bit_from_memory(bytes, length) ? 16 : 8;
+    uint8_t* bytes8 = NULL;
+    uint16_t* bytes16 = NULL;
+    if (*bits == 8) {
+        bytes8 = stbi_load_from_memory(bytes, length, width, height, &channels, 1);
+    } else {
+        bytes16 = stbi_load_16_from_memory(bytes, length, width, height, &channels, 1);
+    }
+    float* heights = NULL;
+    if (bytes8 != NULL || bytes16 != NULL) {
+        const size_t count = (size_t)*width * (size_t)*height;
+        heights = malloc(count * sizeof *heights);
+        for (size_t i = 0; heights != NULL && i < count; ++i) {
+            heights[i] = bytes8 != NULL ? (float)bytes8[i] / 255.0f : (float)bytes16[i] / 65535.0f;
+        }
+    }
+    stbi_image_free(bytes8);
+    stbi_image_free(bytes16);
+    return heights;
+}
+#endif
+
+static float* loadHdrHeights(const uint8_t* bytes, int length, int* width, int* height)
+{
+    float* heights = loadHdr(bytes, length, width, height);
+    const size_t count = heights != NULL ? (size_t)*width * (size_t)*height : 0;
+    for (size_t i = 0; i < count; ++i) {
+        heights[i] = vtLuma(heights + 3 * i);
+    }
+    return heights;
+}
+
+vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float** heights, int* width,
+                         int* height, int* bits, vtError* error)
+{
+    assert(heights != NULL && width != NULL && height != NULL && bits != NULL &&
+           (bytes != NULL || size == 0));
+    *heights = NULL;
+    *width = *height = 0;
+    *bits = 32;
+    name = name != NULL ? name : "";
+    if (vtIsPfm(bytes, size)) {
+        return vtDecodePfmHeights(bytes, size, name, heights, width, height, error);
+    }
+    if (!vtIsPicture(bytes, size) || size > INT_MAX) {
+        return vtFail(error, vt_errorFormat,
+                      "relief '%.300s' %s; give heights as PNG, JPEG, Radiance HDR or PFM", name,
+                      size == 0        ? "is empty"
+                      : size > INT_MAX ? "is larger than 2 GB"
+                                       : "is no picture that can be read");
+    }
+    const int length = (int)size;
+    const bool isHdr = stbi_is_hdr_from_memory(bytes, length) != 0;
+#ifdef VT_HDR_ONLY
+    if (!isHdr) {
+        return vtFail(
+            error, vt_errorFormat,
+            "relief '%.300s' is PNG or JPEG, which this build leaves to the browser; give .hdr or .pfm",
+            name);
+    }
+#endif
+    int columns = 0, rows = 0, channels = 0;
+    if (!stbi_info_from_memory(bytes, length, &columns, &rows, &channels)) {
+        return failDecode(name, error);
+    }
+    if (vtCheckHeightSides(name, columns, rows, error) != vt_ok) {
+        return vt_errorFormat;
+    }
+    *heights = isHdr ? loadHdrHeights(bytes, length, width, height)
+                     : loadHeights(bytes, length, width, height, bits);
+    return *heights != NULL ? vtSucceed(error) : failDecode(name, error);
+}
+
+// ------------------------------------------------------------------------------------------------ writing
+
+vtResult vtCheckWritten(int width, int height, vtError* error)
+{
+    if (width < 1 || height < 1 || width > VT_MAX_IMAGE_SIDE || height > VT_MAX_IMAGE_SIDE) {
+        return vtFail(error, vt_errorArgument,
+                      "a picture of %d x %d pixels cannot be written; a side must be 1 to %d", width, height,
+                      VT_MAX_IMAGE_SIDE);
+    }
+    return vt_ok;
 }
 
 vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
@@ -272,8 +379,8 @@ vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height,
            (channels == 1 || channels == 3 || channels == 4));
     *bytes = NULL;
     *size = 0;
-    if (!sizeIsUsable(width, height)) {
-        return failSize(width, height, error);
+    if (vtCheckWritten(width, height, error) != vt_ok) {
+        return vt_errorArgument;
     }
     int length = 0;
     unsigned char* encoded =
@@ -283,130 +390,5 @@ vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height,
     }
     *bytes = encoded;
     *size = (size_t)length;
-    return vtSucceed(error);
-}
-
-// --------------------------------------------------------------------------------------------------- PFM
-
-/// A float's four bytes, written out so that the machine's own byte order does not matter.
-static void storeLittleEndian(uint8_t* to, float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    for (int i = 0; i < 4; ++i) {
-        to[i] = (uint8_t)(bits >> (8 * i));
-    }
-}
-
-static float loadFloat(const uint8_t* from, bool littleEndian)
-{
-    uint32_t bits = 0;
-    for (int i = 0; i < 4; ++i) {
-        bits |= (uint32_t)from[i] << (8 * (littleEndian ? i : 3 - i));
-    }
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-vtResult vtEncodePfm(const float* rgb, int width, int height, uint8_t** bytes, size_t* size, vtError* error)
-{
-    assert(rgb != NULL && bytes != NULL && size != NULL);
-    *bytes = NULL;
-    *size = 0;
-    if (!sizeIsUsable(width, height)) {
-        return failSize(width, height, error);
-    }
-    char header[64];
-    const size_t headerSize = (size_t)snprintf(header, sizeof header, "PF\n%d %d\n-1.0\n", width, height);
-    const size_t rowFloats = (size_t)width * 3;
-    uint8_t* encoded = malloc(headerSize + rowFloats * (size_t)height * 4);
-    if (encoded == NULL) {
-        return vtFail(error, vt_errorMemory, "no memory to write a PFM of %d x %d pixels", width, height);
-    }
-    memcpy(encoded, header, headerSize);
-    uint8_t* to = encoded + headerSize;
-    for (int row = height - 1; row >= 0; --row) {
-        const float* from = rgb + (size_t)row * rowFloats;
-        for (size_t i = 0; i < rowFloats; ++i, to += 4) {
-            storeLittleEndian(to, from[i]);
-        }
-    }
-    *bytes = encoded;
-    *size = (size_t)(to - encoded);
-    return vtSucceed(error);
-}
-
-static bool isSpace(uint8_t c)
-{
-    return c == ' ' || c == '\n' || c == '\r' || c == '\t';
-}
-
-/// Reads the next word of a PFM header into `word` and leaves *at on the one white space after it.
-static bool readWord(const uint8_t* bytes, size_t size, size_t* at, char* word, size_t capacity)
-{
-    while (*at < size && isSpace(bytes[*at])) {
-        ++*at;
-    }
-    size_t length = 0;
-    while (*at < size && !isSpace(bytes[*at])) {
-        if (length + 1 == capacity) {
-            return false;
-        }
-        word[length++] = (char)bytes[(*at)++];
-    }
-    word[length] = '\0';
-    return length > 0 && *at < size;
-}
-
-vtResult vtDecodePfm(const void* bytes, size_t size, const char* name, float** rgb, int* width, int* height,
-                     vtError* error)
-{
-    assert(rgb != NULL && width != NULL && height != NULL && (bytes != NULL || size == 0));
-    *rgb = NULL;
-    *width = *height = 0;
-    name = name != NULL ? name : "";
-    const uint8_t* octets = bytes;
-    char magic[4], columnsWord[16], rowsWord[16], scaleWord[32];
-    size_t at = 0;
-    if (!readWord(octets, size, &at, magic, sizeof magic) || strcmp(magic, "PF") != 0) {
-        return vtFail(error, vt_errorFormat, "picture '%s' is not a colour PFM (its first word is not PF)",
-                      name);
-    }
-    if (!readWord(octets, size, &at, columnsWord, sizeof columnsWord) ||
-        !readWord(octets, size, &at, rowsWord, sizeof rowsWord) ||
-        !readWord(octets, size, &at, scaleWord, sizeof scaleWord)) {
-        return vtFail(error, vt_errorFormat, "picture '%s' ends within its PFM header; write it again", name);
-    }
-    const long columns = strtol(columnsWord, NULL, 10), rows = strtol(rowsWord, NULL, 10);
-    const double scale = strtod(scaleWord, NULL);
-    if (columns < 1 || rows < 1 || columns > VT_MAX_IMAGE_SIDE || rows > VT_MAX_IMAGE_SIDE ||
-        !(scale != 0.0)) {
-        return vtFail(error, vt_errorFormat,
-                      "picture '%s' has the PFM header '%s %s %s', but sides must be 1 to %d and the scale "
-                      "not 0; write it again",
-                      name, columnsWord, rowsWord, scaleWord, VT_MAX_IMAGE_SIDE);
-    }
-    const size_t offset = at + 1, rowFloats = (size_t)columns * 3, count = rowFloats * (size_t)rows;
-    if ((size - offset) / 4 < count) {
-        return vtFail(error, vt_errorFormat,
-                      "picture '%s' holds %zu bytes of pixels where %ld x %ld need %zu; it is "
-                      "truncated, so write it again",
-                      name, size - offset, columns, rows, count * 4);
-    }
-    float* values = malloc(count * sizeof *values);
-    if (values == NULL) {
-        return vtFail(error, vt_errorMemory, "no memory for the %ld x %ld pixels of picture '%s'", columns,
-                      rows, name);
-    }
-    for (long row = 0; row < rows; ++row) {
-        const uint8_t* from = octets + offset + (size_t)(rows - 1 - row) * rowFloats * 4;
-        for (size_t i = 0; i < rowFloats; ++i) {
-            values[(size_t)row * rowFloats + i] = loadFloat(from + 4 * i, scale < 0.0);
-        }
-    }
-    *rgb = values;
-    *width = (int)columns;
-    *height = (int)rows;
     return vtSucceed(error);
 }

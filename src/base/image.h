@@ -1,4 +1,4 @@
-// Pictures in memory: PNG, JPEG and Radiance HDR through stb, PFM here.
+// Pictures in memory: PNG, JPEG and Radiance HDR through stb (image.c), PFM (pfm.c).
 // All buffers handed out come from malloc; the caller frees them.
 #pragma once
 
@@ -39,3 +39,29 @@ vtResult vtEncodePfm(const float* rgb, int width, int height, uint8_t** bytes, s
 /// Decodes a colour PFM of either byte order; *rgb is top row first, numbers untouched (NaN included).
 vtResult vtDecodePfm(const void* bytes, size_t size, const char* name, float** rgb, int* width, int* height,
                      vtError* error);
+
+/// Whether this begins as a PNG, JPEG, Radiance HDR or PFM file does; a PFM.
+bool vtIsPicture(const void* bytes, size_t size);
+bool vtIsPfm(const void* bytes, size_t size);
+
+/// Decodes any of these to one number a pixel, top row first: PNG and JPEG as they are stored, 0 to 1, the
+/// others untouched (NaN included), colours by their luma. *bits: of a number in the file, 8, 16 or 32. Sides
+/// must be those of a relief. `name` goes into the error sentence. Fails with vt_errorFormat or
+/// vt_errorMemory; then *heights is NULL.
+vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float** heights, int* width,
+                         int* height, int* bits, vtError* error);
+
+/// Its part for PFM, grey ("Pf") too.
+vtResult vtDecodePfmHeights(const void* bytes, size_t size, const char* name, float** heights, int* width,
+                            int* height, vtError* error);
+
+/// Sentences about sides: of a relief's samples, of a picture that is written.
+vtResult vtCheckHeightSides(const char* name, long width, long height, vtError* error);
+vtResult vtCheckWritten(int width, int height, vtError* error);
+
+/// Of Rec. 709; grey stays what it is, to the last bit.
+static inline float vtLuma(const float* rgb)
+{
+    return rgb[0] == rgb[1] && rgb[1] == rgb[2] ? rgb[0]
+                                                : 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+}

@@ -16,15 +16,17 @@ typedef struct MeshUse {
     uint32_t firstTriangle, firstAttribute;
 } MeshUse;
 
-static vtResult checkSize(const vtGL* gl, uint64_t triangles, vtError* error)
+static vtResult checkSize(const vtGL* gl, uint64_t triangles, bool hasReliefs, vtError* error)
 {
     GLint largest = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     const uint64_t rows = (triangles + VT_TRIANGLES_A_ROW - 1) / VT_TRIANGLES_A_ROW;
     if (rows > (uint64_t)largest) {
         return vtFail(error, vt_errorContext,
-                      "scene: %llu triangles are more than this GPU can hold (%llu); simplify its meshes",
-                      (unsigned long long)triangles, (unsigned long long)largest * VT_TRIANGLES_A_ROW);
+                      "scene: %llu triangles are more than this GPU can hold (%llu); %s",
+                      (unsigned long long)triangles, (unsigned long long)largest * VT_TRIANGLES_A_ROW,
+                      hasReliefs ? "draw its reliefs with technique heightfield, which needs none"
+                                 : "simplify its meshes");
     }
     return vt_ok;
 }
@@ -163,10 +165,12 @@ static vtResult createBuffer(vtSceneBuffer* buffer, const vtGL* gl, const vtScen
                              const vtPlacedObject* placed, MeshUse* uses, vtError* error)
 {
     uint64_t triangles = 0, attributes = 0;
+    bool hasReliefs = false;
     for (uint32_t i = 0; i < scene->objectCount; ++i) {
         const vtMesh* mesh = placed[i].mesh;
         MeshUse* use = &uses[placed[i].meshIndex];
         use->used = true;
+        hasReliefs = hasReliefs || mesh->heights != NULL;
         use->hasAttributes |= placed[i].material->opaque && (mesh->texcoords != NULL || mesh->colors != NULL);
     }
     for (uint32_t i = 0; i < scene->meshCount; ++i) {
@@ -182,7 +186,7 @@ static vtResult createBuffer(vtSceneBuffer* buffer, const vtGL* gl, const vtScen
         return vtFail(error, vt_errorMemory, "scene: out of memory for %u objects", scene->objectCount);
     }
     buffer->objectCount = scene->objectCount;
-    vtResult result = checkSize(gl, triangles, error);
+    vtResult result = checkSize(gl, triangles, hasReliefs, error);
     if (result == vt_ok) {
         result = uploadMeshes(buffer, gl, scene, uses, error);
     }

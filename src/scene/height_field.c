@@ -48,7 +48,7 @@ static vtResult checkDef(const vtReliefDef* def, const char* name, vtError* erro
                       "relief '%.300s': the slab's thickness is %g; it must be from 0.001 to 10", name,
                       (double)def->thickness);
     }
-    if (!(def->smoothing >= 0.0f && def->smoothing <= 64.0f)) {
+    if (def->smoothing != -1.0f && !(def->smoothing >= 0.0f && def->smoothing <= 64.0f)) {
         return vtFail(error, vt_errorArgument, "relief '%.300s': smoothing is %g; it must be from 0 to 64",
                       name, (double)def->smoothing);
     }

@@ -18,6 +18,10 @@ static const vtObjectKeyInfo keys[vt_keyCount] = {
     [vt_keyTint] = {"tint", 3, 3, 0, 1, 0},
     [vt_keyAbsorb] = {"absorb", 3, 3, 0, 1, 0},
     [vt_keyDistance] = {"distance", 1, 1, 0, 1e6, 0},
+    [vt_keyRelief] = {"relief", 1, 1, 0, 10, 0},
+    [vt_keySlab] = {"slab", 1, 1, 0.001, 10, 0},
+    [vt_keySmooth] = {"smooth", 1, 1, 0, 64, 0},
+    [vt_keySamples] = {"samples", 1, 1, 2, VT_MAX_RELIEF_SIDE, 0},
     [vt_keyOpaque] = {"opaque", 0, 0, 0, 0, 0},
     [vt_keyGlass] = {"glass", 0, 0, 0, 0, 0},
     [vt_keyColour] = {"colour", 3, 3, 0, 1, 0},
@@ -40,6 +44,11 @@ typedef struct Text {
 static bool isGiven(const vtObjectSpec* spec, vtObjectKey key)
 {
     return (spec->given & 1u << key) != 0;
+}
+
+static bool isWhole(vtObjectKey key)
+{
+    return key == vt_keyPriority || key == vt_keySamples;
 }
 
 // ------------------------------------------------------------------------------------------------ parsing
@@ -75,7 +84,7 @@ static void describeValue(vtObjectKey key, char* text, size_t size)
                         : row->least == row->most ? row->most == 1 ? "a number" : "three numbers"
                         : row->most == 3          ? "one number or three"
                                                   : "without a value or a number";
-    if (key == vt_keyPriority) {
+    if (isWhole(key)) {
         count = "a whole number";
     }
     char range[64] = "";
@@ -119,7 +128,7 @@ static vtResult storeValue(const Text* text, vtObjectKey key, const char* value,
         }
         good = count < row->most && readNumber(part, &numbers[count]) && numbers[count] >= row->low &&
                numbers[count] <= row->high && (key != vt_keyScale || fabs(numbers[count]) >= 1e-9) &&
-               (key != vt_keyPriority || numbers[count] == floor(numbers[count]));
+               (!isWhole(key) || numbers[count] == floor(numbers[count]));
         ++count;
     }
     good = good && count >= row->least && (count == 0 || count == 1 || count == row->most);
@@ -186,11 +195,10 @@ vtResult vtParseObject(const char* text, const char* option, bool isName, vtObje
     const size_t length = tail != NULL ? (size_t)(tail - text) - 1 : strlen(text);
     char parts[1024] = "";
     if (length == 0 || length >= sizeof spec->name || (tail != NULL && strlen(tail) >= sizeof parts)) {
-        return vtFail(
-            error, vt_errorArgument,
-            "%s is '%.200s'; it must be NAME or NAME:key=value,key=value, NAME a built-in shape or a "
-            "model file",
-            option, text);
+        return vtFail(error, vt_errorArgument,
+                      "%s is '%.200s'; it must be NAME or NAME:key=value,key=value, NAME a built-in shape or "
+                      "relief, a model file or a picture of heights",
+                      option, text);
     }
     memcpy(spec->name, text, length);
     if (tail != NULL) {
@@ -247,6 +255,33 @@ static void applyToMaterial(const vtObjectSpec* spec, vtMaterial* material)
     }
     if (isGiven(spec, vt_keyMetallic) || isGiven(spec, vt_keyRoughness)) {
         material->metallicRoughnessImage = -1;
+    }
+}
+
+vtResult vtObjectSpec_Check(const vtObjectSpec* spec, vtObjectKind kind, const char* option, vtError* error)
+{
+    for (int key = vt_keyRelief; key <= vt_keySamples && kind == vt_kindMesh; ++key) {
+        if (isGiven(spec, (vtObjectKey)key)) {
+            return vtFail(error, vt_errorArgument,
+                          "%s '%.200s' is no relief, so the key '%s' says nothing to it; leave it out",
+                          option, spec->name, keys[key].name);
+        }
+    }
+    if (kind == vt_kindReliefFile && isGiven(spec, vt_keySamples)) {
+        return vtFail(error, vt_errorArgument,
+                      "%s '%.200s' has the samples that the file has; leave the key 'samples' out", option,
+                      spec->name);
+    }
+    return vt_ok;
+}
+
+void vtObjectSpec_ApplyToRelief(const vtObjectSpec* spec, vtReliefDef* def)
+{
+    copyNumber(spec, vt_keyRelief, &def->depth);
+    copyNumber(spec, vt_keySlab, &def->thickness);
+    copyNumber(spec, vt_keySmooth, &def->smoothing);
+    if (isGiven(spec, vt_keySamples)) {
+        def->width = def->height = (int)spec->values[vt_keySamples][0];
     }
 }
 

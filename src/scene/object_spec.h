@@ -15,6 +15,10 @@ typedef enum vtObjectKey {
     vt_keyTint,
     vt_keyAbsorb,
     vt_keyDistance,
+    vt_keyRelief, ///< these four: of reliefs only
+    vt_keySlab,
+    vt_keySmooth,
+    vt_keySamples,
     vt_keyOpaque,
     vt_keyGlass,
     vt_keyColour,
@@ -25,7 +29,7 @@ typedef enum vtObjectKey {
 } vtObjectKey;
 
 typedef struct vtObjectSpec {
-    char name[vt_objectNameRoom];  ///< of a shape or file
+    char name[vt_objectNameRoom];  ///< of a shape, pattern or file
     unsigned given;                ///< bit set of vtObjectKey
     double values[vt_keyCount][3]; ///< of those given
 } vtObjectSpec;
@@ -41,6 +45,18 @@ const vtObjectKeyInfo* vtObjectKey_Info(vtObjectKey key);
 /// Parses NAME[:key=value,...]. `isName`: the whole text is the name, although it may have a colon. Fails
 /// with a sentence that names the option (as "--object"), key, value and what is allowed.
 vtResult vtParseObject(const char* text, const char* option, bool isName, vtObjectSpec* spec, vtError* error);
+
+typedef enum vtObjectKind {
+    vt_kindMesh, ///< shape or model
+    vt_kindReliefFile,
+    vt_kindReliefPattern,
+} vtObjectKind;
+
+/// Fails with a sentence where a key is given that says nothing to what the name turned out to be.
+vtResult vtObjectSpec_Check(const vtObjectSpec* spec, vtObjectKind kind, const char* option, vtError* error);
+
+/// The numbers of a relief that are given.
+void vtObjectSpec_ApplyToRelief(const vtObjectSpec* spec, vtReliefDef* def);
 
 /// Gives the scene's materials and objects what the specification says; the place is vtObjectSpec_Place's.
 void vtObjectSpec_Apply(const vtObjectSpec* spec, vtScene* scene);

@@ -1,0 +1,11 @@
+// What the command line knows of reliefs beside vitrine.h.
+#pragma once
+
+#include "vitrine.h"
+
+/// As vtLoadRelief; *bits: of a height in the file, 8, 16 or 32.
+vtResult vtLoadReliefOfBits(const void* bytes, size_t size, const char* name, const vtReliefDef* def,
+                            vtMesh* mesh, int* bits, vtError* error);
+
+/// A number of the table of patterns, -1: there is none of that name.
+int vtFindReliefPattern(const char* name);
