@@ -84,7 +84,7 @@ static const struct {
     {"ripples", "rings of three drops in water", ripples, 0.05f},
     {"hammered", "dimples of hammered cathedral glass", hammered, 0.05f},
     {"fluted", "twelve reeds along y", fluted, 0.04f},
-    {"lens-array", "six by six lenses", lensArray, 0.06f},
+    {"lens-array", "six by six lenses", lensArray, 0.1f},
 };
 enum { patternCount = sizeof patterns / sizeof patterns[0], defaultSide = 512 };
 
