@@ -38,11 +38,14 @@ static void labelRow(vtBenchRow* row)
 {
     const vtTechniqueRow* technique = vtTechnique_Row(row->frame.technique);
     row->id = technique->info.id;
+    const bool cells =
+        row->frame.search == vt_searchCells && technique->refract[vt_variantCells].name != NULL;
     if (technique->cube) {
         snprintf(row->label, sizeof row->label, "%s, %d layers of %d", row->id, row->frame.layers,
                  row->frame.cubeSize);
     } else if (technique->layers == VT_LAYERS_OF_FRAME) {
-        snprintf(row->label, sizeof row->label, "%s, %d layers", row->id, row->frame.layers);
+        snprintf(row->label, sizeof row->label, "%s, %d layers%s", row->id, row->frame.layers,
+                 cells ? ", cells" : "");
     } else {
         snprintf(row->label, sizeof row->label, "%s", row->id);
     }

@@ -16,8 +16,8 @@
 #include "timing.h"
 #include "trace.h"
 
-// The table's rows, and `layered` once more with twice the layers.
-enum { rungCount = vt_techniqueCount + 1 };
+// The table's rows, and `layered` once more with twice the layers, and with the other search.
+enum { rungTwiceLayers = vt_techniqueCount, rungCells, rungCount };
 
 typedef struct Rung {
     char label[64];
@@ -39,15 +39,17 @@ typedef struct Ladder {
 static void nameRungs(const vtFrame* base, Ladder* ladder)
 {
     for (int i = 0; i < rungCount; ++i) {
-        bool extra = i == vt_techniqueCount;
         vtFrame* frame = &ladder->frames[i];
         *frame = *base;
-        frame->technique = extra ? vt_techniqueLayered : (vtTechnique)i;
+        frame->technique = i >= vt_techniqueCount ? vt_techniqueLayered : (vtTechnique)i;
+        frame->search = i == rungCells ? vt_searchCells : vt_searchSteps;
         const int layers = vtResolveFrame(frame).layers;
-        frame->layers = extra && 2 * layers <= VT_MAX_LAYERS ? 2 * layers : base->layers;
+        frame->layers = i == rungTwiceLayers && 2 * layers <= VT_MAX_LAYERS ? 2 * layers : base->layers;
         const vtTechniqueInfo* info = vtTechnique_Info(frame->technique);
         ladder->rungs[i].year = info->year;
-        if (frame->technique == vt_techniqueLayered) {
+        if (i == rungCells) {
+            snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s, cells", info->id);
+        } else if (frame->technique == vt_techniqueLayered) {
             snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s, %d layers", info->id,
                      vtResolveFrame(frame).layers);
         } else {

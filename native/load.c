@@ -413,6 +413,12 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
         return vtFail(error, vt_errorArgument, "--multi is '%s'; it must be any or ordered", options->multi);
     }
     frame->multi = ordered ? vt_multiOrdered : vt_multiAny;
+    bool cells = strcmp(options->search, "cells") == 0;
+    if (!cells && strcmp(options->search, "steps") != 0) {
+        return vtFail(error, vt_errorArgument, "--search is '%s'; it must be steps or cells",
+                      options->search);
+    }
+    frame->search = cells ? vt_searchCells : vt_searchSteps;
     const float aspect = (float)frame->width / (float)frame->height;
     const vtResult result = chooseView(options, &input->scene, aspect, &frame->view, error);
     return result == vt_ok ? vtValidateFrame(frame, error) : result;

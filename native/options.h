@@ -32,6 +32,7 @@ typedef struct vtOptions {
     const char* sweep;
     const char* plot;
     const char* multi;
+    const char* search;
     const char* objects[VT_MAX_OBJECT_OPTIONS]; ///< of --object, as given
     int objectCount;
     float ior, fov, exposure;

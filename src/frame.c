@@ -120,6 +120,7 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         {"wall-thickness", frame->wallThickness, 0, 1e6},
         {"branches", frame->branches, -1, VT_MAX_BRANCHES},
         {"multi", frame->multi, vt_multiAny, vt_multiOrdered},
+        {"search", frame->search, vt_searchSteps, vt_searchCells},
         {"back-surface", frame->backSurface, vt_backSecond, vt_backFarthest},
         {"layer-source", frame->layerSource, vt_layersFromCube, vt_layersFromEye},
         {"cube-size", frame->cubeSize, frame->cubeSize == 0 ? 0 : 32, 1024},

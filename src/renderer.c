@@ -43,6 +43,7 @@ struct vtRenderer {
     vtTechnique technique;
     vtBackSurface backSurface;
     vtMulti multi;
+    vtSearch search;
     int branches;
     int sampleEnd; // the first sample not drawn yet; 0: nothing to go on with
     // vtRenderer_DrawImage draws into this.
@@ -281,7 +282,7 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     }
     if (result == vt_ok) {
         result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height,
-                                      variant == vt_variantOrdered ? 2 : pathSets(frame),
+                                      vtVariant_IsOrdered(variant) ? 2 : pathSets(frame),
                                       row->surface ? &renderer->surface.depth : NULL, error);
     }
     if (result == vt_ok && layers > 0) {
@@ -375,7 +376,7 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtFrame
                  frame->topLevel},
         .scene = {(int)scene->glassCount, (int)scene->objectCount,
                   frame->fresnel && frame->output == vt_outputPicture,
-                  row->findsOpaque && vtFrame_Variant(frame, true) != vt_variantOrdered},
+                  row->findsOpaque && !vtVariant_IsOrdered(vtFrame_Variant(frame, true))},
         .output = {frame->output, frame->layer, renderer->environment, frame->transparentBackground},
     };
     setCamera(uniforms, &frame->view);
@@ -446,7 +447,8 @@ static vtResult prepareBvh(vtRenderer* renderer, const vtFrame* frame, vtError* 
 #endif
 
 /// One object after the other, from the eye; then the surfaces of all are there again.
-static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, const vtRefractInputs* inputs)
+static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, vtVariant variant,
+                        const vtRefractInputs* inputs)
 {
     const vtGL* gl = &renderer->gl;
     const vtSceneBuffer* scene = &renderer->scene;
@@ -460,7 +462,8 @@ static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, const vtRefr
             gl->BindVertexArray(renderer->emptyVertexArray);
             endStage(frame, "surface");
         }
-        vtRefractPass_DrawOrdered(&renderer->refract, gl, frame->technique, inputs, object, count - 1 - i);
+        vtRefractPass_DrawOrdered(&renderer->refract, gl, frame->technique, variant, inputs, object,
+                                  count - 1 - i);
         endStage(frame, "refract");
     }
     if (count > 1) {
@@ -514,8 +517,8 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
     const vtPathTargets* paths = NULL;
     for (int branch = 0; branch <= branches; ++branch) {
         const int set = branch == 0 ? 0 : 1 + (branch - 1) % 2;
-        if (variant == vt_variantOrdered) {
-            drawOrdered(renderer, frame, &inputs);
+        if (vtVariant_IsOrdered(variant)) {
+            drawOrdered(renderer, frame, variant, &inputs);
         } else {
             vtRefractPass_Draw(&renderer->refract, gl, frame->technique, variant, &inputs, set, paths);
             endStage(frame, "refract");
@@ -636,6 +639,7 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     vtFrameUniforms uniforms;
     const bool sameRest = renderer->technique == frame->technique &&
                           renderer->backSurface == frame->backSurface && renderer->multi == frame->multi &&
+                          renderer->search == frame->search &&
                           renderer->branches == vtFrame_BranchCount(frame);
     renderer->sampleEnd = frame->firstSample > 0 && sameRest ? renderer->sampleEnd : 0;
     result = prepareFrame(renderer, frame, &uniforms, error);
@@ -647,6 +651,7 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     renderer->technique = frame->technique;
     renderer->backSurface = frame->backSurface;
     renderer->multi = frame->multi;
+    renderer->search = frame->search;
     renderer->branches = vtFrame_BranchCount(frame);
     vtSceneBuffer_SortGlass(&renderer->scene, frame->view.eye);
 

@@ -39,11 +39,35 @@
             "u_paths", "u_ends", "u_lights", "u_asides"                                                      \
     }
 
-// What `layered` has in common whatever is around.
-#define VT_LAYERED_CHUNKS                                                                                    \
+// What `layered` has in common whatever is around, with one of its searches.
+#define VT_LAYERED_CHUNKS(search)                                                                            \
     &vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media, &vtChunk_optics,                   \
         &vtChunk_cross_surface, &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_layers_of_object,     \
-        &vtChunk_layers, &vtChunk_search_layered
+        &vtChunk_layers, &vtChunk_layer_walls, &vtChunk_##search
+
+// Its programs that follow paths: through all glass, past opaque things, through one object.
+#define VT_LAYERED_ANY(title, search)                                                                        \
+    {                                                                                                        \
+        .name = title, .vertex = {&vtChunk_screen_vert},                                                     \
+        .fragment = {VT_LAYERED_CHUNKS(search), &vtChunk_refract_layered_frag},                              \
+        .samplers = VT_REFRACT_SAMPLERS                                                                      \
+    }
+#define VT_LAYERED_OPAQUE(title, search)                                                                     \
+    {                                                                                                        \
+        .name = title, .vertex = {&vtChunk_screen_vert},                                                     \
+        .fragment = {VT_LAYERED_CHUNKS(search),    &vtChunk_with_opaque,                                     \
+                     &vtChunk_triangles,           &vtChunk_cube,                                            \
+                     &vtChunk_walk_mesh,           &vtChunk_grid_walk,                                       \
+                     &vtChunk_search_exact,        &vtChunk_search_opaque,                                   \
+                     &vtChunk_refract_layered_frag},                                                         \
+        .samplers = VT_REFRACT_SAMPLERS                                                                      \
+    }
+#define VT_LAYERED_ORDERED(title, search)                                                                    \
+    {                                                                                                        \
+        .name = title, .vertex = {&vtChunk_screen_vert},                                                     \
+        .fragment = {VT_LAYERED_CHUNKS(search), &vtChunk_refract_ordered_frag},                              \
+        .samplers = VT_ORDERED_SAMPLERS                                                                      \
+    }
 
 static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueKayLinear] =
@@ -158,21 +182,12 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .merge = true,
             .layerSpace = vt_layersOfEachObject,
             .findsOpaque = true,
-            .refract[vt_variantAny] = {.name = "layered",
-                                       .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {VT_LAYERED_CHUNKS, &vtChunk_refract_layered_frag},
-                                       .samplers = VT_REFRACT_SAMPLERS},
-            .refract[vt_variantOpaque] = {.name = "layered opaque",
-                                          .vertex = {&vtChunk_screen_vert},
-                                          .fragment = {VT_LAYERED_CHUNKS, &vtChunk_with_opaque,
-                                                       &vtChunk_triangles, &vtChunk_cube, &vtChunk_walk_mesh,
-                                                       &vtChunk_grid_walk, &vtChunk_search_exact,
-                                                       &vtChunk_search_opaque, &vtChunk_refract_layered_frag},
-                                          .samplers = VT_REFRACT_SAMPLERS},
-            .refract[vt_variantOrdered] = {.name = "layered ordered",
-                                           .vertex = {&vtChunk_screen_vert},
-                                           .fragment = {VT_LAYERED_CHUNKS, &vtChunk_refract_ordered_frag},
-                                           .samplers = VT_ORDERED_SAMPLERS},
+            .refract[vt_variantAny] = VT_LAYERED_ANY("layered", search_layered),
+            .refract[vt_variantOpaque] = VT_LAYERED_OPAQUE("layered opaque", search_layered),
+            .refract[vt_variantOrdered] = VT_LAYERED_ORDERED("layered ordered", search_layered),
+            .refract[vt_variantCells] = VT_LAYERED_ANY("layered cells", search_cells),
+            .refract[vt_variantCellsOpaque] = VT_LAYERED_OPAQUE("layered cells opaque", search_cells),
+            .refract[vt_variantCellsOrdered] = VT_LAYERED_ORDERED("layered cells ordered", search_cells),
         },
     [vt_techniqueExact] =
         {
@@ -247,10 +262,13 @@ const vtTechniqueRow* vtTechnique_Row(vtTechnique technique)
 vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque)
 {
     const vtProgramDef* defs = vtTechnique_Row(frame->technique)->refract;
-    if (frame->multi == vt_multiOrdered && defs[vt_variantOrdered].name != NULL) {
-        return vt_variantOrdered;
+    const bool cells = frame->search == vt_searchCells && defs[vt_variantCells].name != NULL;
+    const vtVariant any = cells ? vt_variantCells : vt_variantAny;
+    const vtVariant ordered = any + vt_variantOrdered, withOpaque = any + vt_variantOpaque;
+    if (frame->multi == vt_multiOrdered && defs[ordered].name != NULL) {
+        return ordered;
     }
-    return opaque && defs[vt_variantOpaque].name != NULL ? vt_variantOpaque : vt_variantAny;
+    return opaque && defs[withOpaque].name != NULL ? withOpaque : any;
 }
 
 int vtFrame_LayerCount(const vtFrame* frame)

@@ -19,6 +19,9 @@ typedef enum vtVariant {
     vt_variantOpaque,  ///< the same where the scene has something opaque, if a technique has one of its own
     vt_variantOrdered, ///< through one object, from where the objects before have left the path
                        ///< (vt_multiOrdered)
+    vt_variantCells,   ///< the same three with vt_searchCells
+    vt_variantCellsOpaque,
+    vt_variantCellsOrdered,
     vt_variantCount,
 } vtVariant;
 
@@ -40,9 +43,14 @@ typedef struct vtTechniqueRow {
 
 const vtTechniqueRow* vtTechnique_Row(vtTechnique technique);
 
-/// The program for the frame; `opaque`: there is something that is. Ordered where frame->multi says so and
-/// the technique can.
+/// The program for the frame; `opaque`: there is something that is. Ordered, and with the search, that the
+/// frame says where the technique has them.
 vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque);
+
+static inline bool vtVariant_IsOrdered(vtVariant variant)
+{
+    return variant == vt_variantOrdered || variant == vt_variantCellsOrdered;
+}
 
 /// Layers that the frame's technique peels.
 int vtFrame_LayerCount(const vtFrame* frame);

@@ -381,6 +381,12 @@ typedef enum vtMulti {
     vt_multiOrdered, ///< one object after the other, sorted from the eye (Wang & Chi 2014, section 3.7)
 } vtMulti;
 
+/// How `layered` searches the layers along a ray.
+typedef enum vtSearch {
+    vt_searchSteps = 0, ///< linear steps, then halving (Wang & Chi 2014)
+    vt_searchCells,     ///< from cell to cell between texel centres, two triangles a cell and layer
+} vtSearch;
+
 /// What `wyman` takes for the back side of an object.
 typedef enum vtBackSurface {
     vt_backSecond = 0, ///< the surface behind the first
@@ -407,6 +413,7 @@ typedef struct vtFrame {
     /// default: the preset's
     int branches;
     vtMulti multi;   ///< layered, several objects; default vt_multiAny
+    vtSearch search; ///< layered; default vt_searchSteps
     vtPreset preset; ///< of the settings that are 0; default vt_presetMedium
     int layers;      ///< depth layers peeled, 1 to VT_MAX_LAYERS; 0, the default: the preset's
     int steps;       ///< search steps a segment, 1 to VT_MAX_STEPS: linear ones; exact: texels of its pyramid

@@ -316,6 +316,7 @@ describe('objects', () => {
     for (const [spec, parts] of Object.entries(bad)) refuses(render(...object(spec)), parts);
     refuses(render(...object(...Array(65).fill('sphere'))), ["'sphere' is one too many; at most 64"]);
     refuses(render('sphere', '--multi', 'some'), ["--multi is 'some'; it must be any or ordered"]);
+    refuses(render('sphere', '--search', 'rays'), ["--search is 'rays'; it must be steps or cells"]);
   });
 
   test('an open sheet of glass within glass', () => {
@@ -619,8 +620,8 @@ describe('measuring', () => {
     assert.equal(result.code, 0, result.error);
     const table = readFileSync(join(folder, 'ladder.md'), 'utf8');
     const mean = (label) => Number(table.match(new RegExp(`\\| ${label} \\|.*?\\| ([\\d.]+)° \\|`))[1]);
-    const rungs = ['single', 'wyman', 'oliveira', 'layered, 4 layers'].map(mean);
-    assert.ok(rungs[0] > rungs[1] && rungs[1] > rungs[3] && rungs[2] > rungs[3], rungs.join(' '));
+    const rungs = ['single', 'wyman', 'oliveira', 'layered, 4 layers', 'layered, cells'].map(mean);
+    assert.ok(rungs[0] > rungs[1] && rungs[1] > rungs[3] && rungs[2] > rungs[3] && rungs[3] > rungs[4], rungs.join(' '));
     assert.ok(existsSync(join(folder, 'ladder.png')));
   });
 
@@ -713,6 +714,7 @@ describe('golden images', async () => {
     'diamond-studio': ['diamond', '-e', 'studio', '--ior', '2.4', '--max-events', '16'],
     'knot-analysis': ['knot', '--analysis'],
     'torus-two-layers': ['torus', '-t', 'layered', '-e', 'checker', '--layers', '2'],
+    'technique-layered-cells': ['knot', '-e', 'sky', '-t', 'layered', '--search', 'cells'],
     'wyman-farthest': ['knot', '-e', 'sky', '-t', 'wyman', '--back-surface', 'farthest'],
   };
   // One baseline for every row of the technique table.

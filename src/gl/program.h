@@ -8,7 +8,7 @@ typedef struct vtChunk {
     const char* source;
 } vtChunk;
 
-#define VT_MAX_CHUNKS 20
+#define VT_MAX_CHUNKS 24
 #define VT_MAX_SAMPLERS 16
 
 /// What a program is made of: its chunks in order, after {version, precision, constants, frame}.

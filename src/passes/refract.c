@@ -128,11 +128,11 @@ void vtRefractPass_ClearOrdered(const vtRefractPass* pass, const vtGL* gl, uint3
 }
 
 void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
-                               const vtRefractInputs* inputs, uint32_t object, uint32_t left)
+                               vtVariant variant, const vtRefractInputs* inputs, uint32_t object,
+                               uint32_t left)
 {
     const vtPathTargets* before = &pass->targets[1 - left % 2];
-    const GLuint program =
-        (inputs->countReads ? pass->counters : pass->programs)[technique][vt_variantOrdered];
+    const GLuint program = (inputs->countReads ? pass->counters : pass->programs)[technique][variant];
     vtBindFramebuffer(gl, pass->framebuffers[left % 2], before->paths.width, before->paths.height);
     gl->ClearBufferuiv(GL_COLOR, 0, background);
     gl->UseProgram(program);

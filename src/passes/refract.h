@@ -60,6 +60,7 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
 /// `left` more to come after it. Two sets of targets are needed.
 void vtRefractPass_ClearOrdered(const vtRefractPass* pass, const vtGL* gl, uint32_t count);
 void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
-                               const vtRefractInputs* inputs, uint32_t object, uint32_t left);
+                               vtVariant variant, const vtRefractInputs* inputs, uint32_t object,
+                               uint32_t left);
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl);
 size_t vtRefractPass_Bytes(const vtRefractPass* pass);

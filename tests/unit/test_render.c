@@ -84,12 +84,13 @@ static void whiteEnvironmentStaysWhite(void** state)
 }
 
 // Two refractions of a ball of radius 1: the exit direction in closed form.
-static void sphereFollowsTheClosedForm(Fixture* fixture, vtTechnique technique)
+static void sphereFollowsTheClosedForm(Fixture* fixture, vtTechnique technique, vtSearch search)
 {
     setShape(fixture->renderer, "sphere");
     setEnvironment(fixture->renderer, "checker");
     vtFrame frame = smallFrame(vt_techniqueLayered);
     frame.technique = technique;
+    frame.search = search;
     draw(fixture, &frame);
     int glass = 0, within = 0, lost = 0;
     for (int p = 0; p < side * side; ++p) {
@@ -119,12 +120,13 @@ static void sphereFollowsTheClosedForm(Fixture* fixture, vtTechnique technique)
 
 static void layeredSphereFollowsTheClosedForm(void** state)
 {
-    sphereFollowsTheClosedForm(*state, vt_techniqueLayered);
+    sphereFollowsTheClosedForm(*state, vt_techniqueLayered, vt_searchSteps);
+    sphereFollowsTheClosedForm(*state, vt_techniqueLayered, vt_searchCells);
 }
 
 static void oliveirasSphereFollowsTheClosedForm(void** state)
 {
-    sphereFollowsTheClosedForm(*state, vt_techniqueOliveira);
+    sphereFollowsTheClosedForm(*state, vt_techniqueOliveira, vt_searchSteps);
 }
 
 // A thick pane: what leaves by the far face is parallel to what came in.
@@ -466,7 +468,7 @@ static void whateverChangesStartsAnew(void** state)
 {
     Fixture* fixture = *state;
     uint8_t* wanted = malloc(pixelBytes);
-    enum { changes = 10, first = 5 };
+    enum { changes = 11, first = 5 };
     for (int i = 0; i < changes; ++i) {
         setShape(fixture->renderer, "torus");
         setEnvironment(fixture->renderer, "studio");
@@ -499,6 +501,10 @@ static void whateverChangesStartsAnew(void** state)
             after.fresnel = before.fresnel = true;
             before.branches = i == 8 ? -1 : 1;
             before.ior = i == 8 ? before.ior : 1.6f; // an index of its own is in the objects' table
+            break;
+        case 10:
+            after.technique = before.technique = vt_techniqueLayered;
+            before.search = vt_searchCells;
             break;
         default:
             break;
@@ -566,6 +572,10 @@ static void badFramesDrawNothing(void** state)
     frame.multi = (vtMulti)2;
     assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
     assert_string_equal(error.message, "multi is 2; it must be from 0 to 1");
+    frame.multi = vt_multiAny;
+    frame.search = (vtSearch)2;
+    assert_int_equal(vtValidateFrame(&frame, &error), vt_errorArgument);
+    assert_string_equal(error.message, "search is 2; it must be from 0 to 1");
 }
 
 int main(void)
