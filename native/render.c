@@ -113,9 +113,11 @@ static vtResult drawLayerSheet(vtRenderer* renderer, const vtFrame* frame, Outpu
 static void sayLayers(const vtFrame* frame, const vtRendererInfo* info)
 {
     const vtFrame resolved = vtResolveFrame(frame);
+    const int layers = vtFrame_LayerCount(frame);
+    if (layers > 0) {
+        fprintf(stderr, "vitrine: %d layers of %d x %d\n", layers, info->layerWidth, info->layerHeight);
+    }
     if (frame->technique != vt_techniqueExact) {
-        fprintf(stderr, "vitrine: %d layers of %d x %d\n", vtFrame_LayerCount(frame), info->layerWidth,
-                info->layerHeight);
         return;
     }
     fprintf(stderr, "vitrine: preset %s: %d layers of %d x %d %s, %.1f MB", vtPresetName((int)frame->preset),

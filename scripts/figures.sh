@@ -15,12 +15,20 @@ rm -f "$pictures"/{bottle,torus,sphere}.png
 for id in kay-linear kay-nonlinear kay-thickness single wyman oliveira layered exact bvh reference; do
   "$vitrine" render knot -t "$id" -e sky -r 320,320 -o "$pictures/technique-$id.png"
 done
+"$vitrine" render ripples -t heightfield -e sky -r 320,320 -o "$pictures/technique-heightfield.png"
 # Scenes, for the README.
 "$vitrine" render --object cube:at=0,0,0.6 --object knot:at=0,0,-2 --camera 1.1,1,4.6 --target 0,0.05,-0.6 --fov 34 -e sky \
   --preset high --samples 16 -r 540,540 -o "$pictures/scene-knot.png"
 "$vitrine" render --object tumbler --object water:ior=1.33,absorb=0.6,0.85,0.9 --object plane:at=0,0,-4,scale=2,checker \
   --camera 0.8,1.2,4 --target 0,0,0 -e studio --preset high --samples 16 -r 540,540 -o "$pictures/scene-water.png"
 node scripts/scenes.mjs
+# Reliefs, the same.
+behind=(--camera 0.5,0.4,4.4 --target 0,0,0 --fov 32 -e studio --samples 16 -r 540,540)
+"$vitrine" render --object fluted:at=0,0,0.6,samples=1024 --object plane:checker=0,colour=0.8,0.8,0.75,at=0,0,-3.5,scale=3 \
+  --object knot:opaque,colour=0.85,0.25,0.1,roughness=0.35,at=-0.1,0,-1.2 "${behind[@]}" -o "$pictures/relief-fluted.png"
+"$vitrine" render --object hammered:samples=1024 --object plane:checker=6,at=0,0,-3,scale=2 \
+  --object sphere:opaque,colour=0.1,0.4,0.8,roughness=0.3,at=-0.6,-0.4,-1.4,scale=0.5 \
+  --object torus:opaque,colour=0.9,0.6,0.1,roughness=0.3,at=0.4,0.3,-1.6,scale=0.6 "${behind[@]}" -o "$pictures/relief-hammered.png"
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

@@ -7,6 +7,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { deflateSync } from 'node:zlib';
 import * as shapes from '../scripts/glb.mjs';
 import { glb, gltf } from '../scripts/glb.mjs';
 
@@ -59,7 +60,7 @@ describe('words', () => {
     assert.match(vitrine(['--help']).text, /vitrine render MODEL -o OUT\.png/);
     assert.match(vitrine(['--version']).text, /^vitrine \d+\.\d+\.\d+\n$/);
     const list = vitrine(['list']).text;
-    for (const word of ['kay-linear', 'kay-nonlinear', 'kay-thickness', 'single', 'wyman', 'oliveira', 'layered', 'sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'checker', 'studio', 'sky']) {
+    for (const word of ['kay-linear', 'kay-nonlinear', 'kay-thickness', 'single', 'wyman', 'oliveira', 'layered', 'sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'checker', 'studio', 'sky', 'ripples', 'hammered', 'fluted', 'lens-array']) {
       assert.ok(list.includes(word), word);
     }
     const help = vitrine(['render', '--help']);
@@ -297,6 +298,13 @@ describe('objects', () => {
       'sphere:tint=1,2,1': ["tint is '1,2,1'; it must be three numbers from 0 to 1"],
       'sphere:colour=nan,0,0': ["colour is 'nan,0,0'"],
       'sphere:distance=-1': ["distance is '-1'"],
+      'sphere:relief=11': ["relief is '11'; it must be a number from 0 to 10"],
+      'ripples:slab=0': ["slab is '0'; it must be a number from 0.001 to 10"],
+      'ripples:smooth=-1': ["smooth is '-1'; it must be a number from 0 to 64"],
+      'ripples:samples=1': ["samples is '1'; it must be a whole number from 2 to 4096"],
+      'ripples:samples=9.5': ["samples is '9.5'"],
+      'sphere:relief=0.1': ["--object 'sphere' is no relief, so the key 'relief' says nothing to it"],
+      'knot:samples=9': ["the key 'samples' says nothing to it"],
       'sphere:opaque=1': ["opaque is '1'; it must be given without a value"],
       'sphere:checker=1,2': ["checker is '1,2'; it must be without a value or a number"],
       'sphere:opaque,glass': ['is opaque and glass; give one of them'],
@@ -328,6 +336,126 @@ describe('objects', () => {
     const { flip } = compared('objects.png', 'traced.png'), { within1, lost } = compared('objects.pfm', 'traced.pfm');
     assert.ok(flip < 0.05, `FLIP ${flip}`);
     assert.ok(within1 > 0.97 && lost < 0.01, `${within1} within 1 degree, ${lost} lost`);
+  });
+});
+
+/** A grey PNG of 8 or 16 bits; `height(column, row)` is 0 to 1. */
+function greyPng(width, height, bits, heightAt) {
+  const chunk = (type, data) => {
+    const bytes = Buffer.alloc(12 + data.length); // stb does not look at the checksum
+    bytes.writeUInt32BE(data.length, 0);
+    bytes.write(type, 4, 'latin1');
+    data.copy(bytes, 8);
+    return bytes;
+  };
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(width, 0);
+  header.writeUInt32BE(height, 4);
+  header[8] = bits;
+  const size = bits / 8, rows = Buffer.alloc(height * (1 + width * size));
+  for (let row = 0; row < height; ++row) {
+    for (let column = 0; column < width; ++column) {
+      const at = row * (1 + width * size) + 1 + column * size;
+      rows.writeUIntBE(Math.round(heightAt(column, row) * (2 ** bits - 1)), at, size);
+    }
+  }
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', header), chunk('IDAT', deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]);
+}
+
+/** A grey PFM. */
+function greyPfm(width, height, heightAt) {
+  const numbers = Buffer.alloc(4 * width * height);
+  for (let row = 0; row < height; ++row) {
+    for (let column = 0; column < width; ++column) {
+      numbers.writeFloatLE(heightAt(column, row), 4 * ((height - 1 - row) * width + column));
+    }
+  }
+  return Buffer.concat([Buffer.from(`Pf\n${width} ${height}\n-1.0\n`), numbers]);
+}
+
+describe('reliefs', () => {
+  const render = (...args) => ['render', ...args, ...small];
+  const args = ['--resolution', '128,128', '-t', 'exact', '-e', 'checker', '--relief-size', '129'];
+  const wave = (column, row) => 0.5 + 0.5 * Math.sin(0.2 * column) * Math.cos(0.15 * row);
+
+  test('built-in patterns', () => {
+    const drawn = ['ripples', 'hammered', 'fluted', 'lens-array'].map((name) => picture(`${name}.png`, name, ...args));
+    drawn.forEach((png, i) => drawn.slice(0, i).forEach((other) => assert.ok(!png.equals(other))));
+    assert.ok(drawn[0].equals(picture('again.png', 'ripples', ...args)));
+    // As the one object that is drawn, keys for options.
+    assert.ok(drawn[0].equals(picture('again.png', '--object', 'ripples:samples=129', ...args.slice(0, -2))));
+    const changed = picture('again.png', 'ripples', ...args, '--relief', '0.1', '--slab', '0.3', '--smooth', '1');
+    assert.ok(!drawn[0].equals(changed));
+    assert.ok(changed.equals(picture('keys.png', '--object', 'ripples:samples=129,relief=0.1,slab=0.3,smooth=1', ...args.slice(0, -2))));
+  });
+
+  test('what --verbose says', () => {
+    const { error } = vitrine([...render('fluted', '--relief-size', '65'), '-o', 'x.png', '-v']);
+    assert.match(error, /'fluted': relief of 65 x 65 samples, cell 0\.03125, z 0 to 0\.0[34]\d*, back at -0\.1, [\d.]+ MB of heights\n/);
+    assert.match(error, /relief of 65 x 65 samples: \d+ triangles\n/);
+  });
+
+  test('the same heights as PNG of 16 bits and as PFM', () => {
+    const ramp = (column, row) => (column + 64 * row) / 4095;
+    write('ramp.png', greyPng(64, 64, 16, (column, row) => Math.round(ramp(column, row) * 65535) / 65535));
+    write('ramp.pfm', greyPfm(64, 64, (column, row) => Math.round(ramp(column, row) * 65535)));
+    const options = [...small, '-e', 'checker', '--relief', '0.4'];
+    const first = vitrine(['render', 'ramp.png', ...options, '-o', 'a.png', '--directions', 'a.pfm']);
+    assert.equal(first.code, 0, first.error);
+    assert.equal(first.error, '');
+    const second = picture('b.png', 'ramp.pfm', ...options, '--directions', 'b.pfm');
+    assert.ok(readFileSync(join(folder, 'a.png')).equals(second));
+    assert.ok(readFileSync(join(folder, 'a.pfm')).equals(readFileSync(join(folder, 'b.pfm'))));
+    // What a file holds counts, not its name, so that it may come from standard input, too.
+    const input = readFileSync(join(folder, 'ramp.png'));
+    const piped = vitrine(['render', '-', ...options, '-o', 'c.png'], { input });
+    assert.equal(piped.code, 0, piped.error);
+    assert.ok(readFileSync(join(folder, 'c.png')).equals(second));
+    assert.ok(picture('d.png', '--object', 'ramp.png:relief=0.4', ...small, '-e', 'checker').equals(second));
+  });
+
+  test('8 bits are smoothed, with a note', () => {
+    write('waves.png', greyPng(80, 60, 8, wave));
+    const noted = vitrine([...render('waves.png'), '-o', 'a.png']);
+    assert.equal(noted.code, 0, noted.error);
+    assert.equal(noted.error, "vitrine: note: 'waves.png' has 8 bits a height; smoothed over 2 samples (--smooth)\n");
+    const asked = vitrine([...render('waves.png', '--smooth', '2'), '-o', 'b.png']);
+    assert.equal(asked.error, '');
+    assert.ok(readFileSync(join(folder, 'a.png')).equals(readFileSync(join(folder, 'b.png'))));
+    assert.ok(!picture('c.png', 'waves.png', '--smooth', '0', ...small).equals(readFileSync(join(folder, 'a.png'))));
+  });
+
+  test('the reference, the ladder and bench draw them', () => {
+    const options = [...small, '-e', 'checker', '--relief-size', '65'];
+    picture('drawn.png', 'ripples', ...options, '--directions', 'drawn.pfm');
+    picture('traced.png', 'ripples', ...options, '-t', 'reference', '--directions', 'traced.pfm');
+    const { within1 } = JSON.parse(vitrine(['compare', 'drawn.pfm', 'traced.pfm', '--json']).text);
+    assert.ok(within1 > 0.98, `${within1} within 1 degree`);
+    picture('wyman.png', 'ripples', ...options, '-t', 'wyman');
+    assert.match(vitrine(['bench', 'ripples', ...options, '-t', 'exact', '--rounds', '1']).text, /exact/);
+    assert.match(vitrine(['ladder', 'ripples', ...options]).text, /wyman/);
+  });
+
+  test('bad input', () => {
+    refuses(render('ripples', '--relief', '-1'), ['--relief is -1; it must be a number from 0 to 10']);
+    refuses(render('ripples', '--slab', '0'), ['--slab is 0; it must be a number from 0.001 to 10']);
+    refuses(render('ripples', '--smooth', '65'), ['--smooth is 65', 'from 0 to 64']);
+    refuses(render('ripples', '--relief-size', '4097'), ['--relief-size is 4097', 'from 2 to 4096']);
+    refuses(render('sphere', '--relief', '0.1'), ["--relief is given, but 'sphere' is no relief"]);
+    refuses(render('--object', 'ripples', '--slab', '0.1'), ['--slab is given, but no MODEL']);
+    refuses(render(write('cube.glb', glb(gltf(cube()))), '--smooth', '1'), ["--smooth is given, but 'cube.glb' is no relief"]);
+    const good = write('good.png', greyPng(9, 9, 16, () => 0.5));
+    refuses(render(good, '--relief-size', '9'), ["--relief-size is given, but 'good.png' has the samples that the file has"]);
+    refuses(render('--object', `${good}:samples=9`), ["'good.png' has the samples that the file has; leave the key 'samples' out"]);
+    refuses(render('--object', 'cube.glb:relief=0.1'), ["'cube.glb' is no relief, so the key 'relief'"]);
+    refuses(render('octopus'), ["model 'octopus' is neither a built-in shape or relief (see 'vitrine list')"]);
+    refuses(render(write('one.png', greyPng(1, 1, 8, () => 0))), ["'one.png' is 1 x 1 samples, but a side must be 2 to 4096"]);
+    refuses(render(write('wide.png', greyPng(5000, 2, 8, () => 0))), ["'wide.png' is 5000 x 2 samples, but a side must be 2 to 4096"]);
+    const noise = greyPng(40, 40, 16, (column, row) => Math.abs(Math.sin(column * 78.233 + row * 12.9898) * 43758.5453 % 1));
+    refuses(render(write('cut.png', noise.subarray(0, 300))), ["'cut.png' cannot be decoded"]);
+    refuses(render(write('nan.pfm', greyPfm(4, 3, (column, row) => (column === 2 && row === 1 ? NaN : column)))), [
+      "'nan.pfm': the height in column 2, row 1 is nan"]);
+    refuses(render(write('short.pfm', greyPfm(4, 3, () => 1).subarray(0, 40))), ["'short.pfm' holds", 'truncated']);
   });
 });
 
@@ -590,7 +718,9 @@ describe('golden images', async () => {
   // One baseline for every row of the technique table.
   const list = vitrine(['list']).text.split('shapes:')[0];
   const techniques = [...list.matchAll(/^  ([a-z-]+) /gm)].map((match) => match[1]);
-  for (const id of techniques) cases[`technique-${id}`] = ['knot', '-e', 'sky', '-t', id];
+  for (const id of techniques) cases[`technique-${id}`] = [id === 'heightfield' ? 'ripples' : 'knot', '-e', 'sky', '-t', id];
+  // By its heights a relief is the picture that its triangles are, which are drawn here and not kept.
+  for (const pattern of ['ripples', 'hammered', 'fluted', 'lens-array']) cases[`heights-${pattern}`] = [pattern, '-e', 'sky'];
   for (const [name, args] of Object.entries(cases)) {
     test(name, { skip: libraries ? false : 'npm packages are not installed (tests/package.json)' }, async () => {
       const { PNG } = await import('pngjs');
@@ -598,12 +728,13 @@ describe('golden images', async () => {
       const file = join(golden, `${name}.png`);
       const result = vitrine(['render', ...args, ...size, '-o', '-']);
       assert.equal(result.code, 0, result.error);
-      if (process.env.VITRINE_UPDATE_GOLDEN) {
+      const byTriangles = name.startsWith('heights-') ? vitrine(['render', ...args, '-t', 'exact', ...size, '-o', '-']) : null;
+      if (process.env.VITRINE_UPDATE_GOLDEN && !byTriangles) {
         mkdirSync(golden, { recursive: true });
         writeFileSync(file, result.out);
         return;
       }
-      const [drawn, wanted] = [PNG.sync.read(result.out), PNG.sync.read(readFileSync(file))];
+      const [drawn, wanted] = [PNG.sync.read(result.out), PNG.sync.read(byTriangles?.out ?? readFileSync(file))];
       const picture = new PNG({ width: wanted.width, height: wanted.height });
       // 0.1 is pixelmatch's default for "looks different"; another LLVM may round a few paths elsewhere.
       const different = pixelmatch(drawn.data, wanted.data, picture.data, wanted.width, wanted.height, { threshold: 0.1 });

@@ -27,32 +27,42 @@ static float ripples(float x, float y)
     return 0.5f + 0.25f * sum; // the weights' sum is 2
 }
 
-/// 0 to 1, by the cell.
-static float scatter(int column, int row, uint32_t salt)
+/// Random bits of a cell: multiply and shift, as C. Wellons's lowbias32.
+static uint32_t scatter(int column, int row)
 {
-    // An integer hash: multiply and shift, as lowbias32 of C. Wellons.
-    uint32_t bits = (uint32_t)column * 0x9E3779B1u ^ (uint32_t)row * 0x85EBCA77u ^ salt * 0xC2B2AE3Du;
+    uint32_t bits = (uint32_t)column * 0x9E3779B1u ^ (uint32_t)row * 0x85EBCA77u;
     bits = (bits ^ bits >> 16) * 0x7FEB352Du;
     bits = (bits ^ bits >> 15) * 0x846CA68Bu;
-    return (float)((bits ^ bits >> 16) >> 8) / 16777216.0f;
+    return bits ^ bits >> 16;
 }
 
-/// Dimples about the points of a jittered hexagonal grid: the squared distance to the nearest one (Worley, A
-/// Cellular Texture Basis Function, 1996), here a soft minimum, so that the ridges between the dimples are
+/// Ten of them, from 0 to 1.
+static float share(uint32_t bits, int first)
+{
+    return (float)(bits >> first & 1023) / 1023.0f;
+}
+
+/// Dimples about the points of a jittered hexagonal grid: the squared distance to the nearest one (Worley,
+/// A Cellular Texture Basis Function, 1996), here a soft minimum, so that the ridges between the dimples are
 /// round.
 static float hammered(float x, float y)
 {
-    const float cells = 6.0f, sharpness = 7.0f; // cells along half the longer side
-    const float u = cells * x, v = cells * y / 0.8660254f;
+    const float cells = 6.0f, sharpness = 7.0f, jitter = 0.6f; // cells along half the longer side
+    const float rowHeight = 0.8660254f;
+    const float u = cells * x, v = cells * y / rowHeight;
     const int row = (int)floorf(v);
     float sum = 0.0f;
     for (int j = row - 2; j <= row + 2; ++j) {
         const float shift = (j & 1) != 0 ? 0.5f : 0.0f;
         const int column = (int)floorf(u - shift);
         for (int i = column - 2; i <= column + 2; ++i) {
-            const float across = (float)i + shift + 0.5f + 0.6f * (scatter(i, j, 1) - 0.5f) - u;
-            const float up = ((float)j + 0.5f + 0.6f * (scatter(i, j, 2) - 0.5f) - v) * 0.8660254f;
-            sum += expf(-sharpness * (across * across + up * up + 0.1f * scatter(i, j, 3)));
+            const uint32_t bits = scatter(i, j);
+            const float across = (float)i + shift + 0.5f + jitter * (share(bits, 0) - 0.5f) - u;
+            const float up = ((float)j + 0.5f + jitter * (share(bits, 10) - 0.5f) - v) * rowHeight;
+            const float square = across * across + up * up;
+            if (square < 2.6f) { // what is farther away adds less than a float's last bit
+                sum += expf(-sharpness * (square + 0.1f * share(bits, 20)));
+            }
         }
     }
     return 0.15f - logf(sum) / sharpness;
@@ -84,7 +94,7 @@ static const struct {
     {"ripples", "rings of three drops in water", ripples, 0.05f},
     {"hammered", "dimples of hammered cathedral glass", hammered, 0.05f},
     {"fluted", "twelve reeds along y", fluted, 0.04f},
-    {"lens-array", "six by six lenses", lensArray, 0.06f},
+    {"lens-array", "six by six lenses", lensArray, 0.1f},
 };
 enum { patternCount = sizeof patterns / sizeof patterns[0], defaultSide = 512 };
 
