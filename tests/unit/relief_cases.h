@@ -179,6 +179,11 @@ static inline bool isRight(const vtMesh* mesh, const vtTestRay* ray, float near,
     for (uint32_t i = 0; i < mesh->indexCount / 3; ++i) {
         vtVec3 corners[3];
         vtMesh_Corners(mesh, i, corners);
+        const float reach = vtLength(vtSub(corners[1], corners[0])) + vtLength(vtSub(corners[2], corners[0]));
+        const vtVec3 aside = vtCross(vtSub(corners[0], ray->origin), ray->direction);
+        if (vtLength(aside) > (float)length * (reach + 1e-4f)) {
+            continue; // far off: most of them, sooner said
+        }
         const vtPassing at = passTriangle(corners, ray);
         const double before = ((double)distance - at.distance) * at.cosine * length;
         meets = meets || (at.depth > -roundingDistance && fabs(before) < roundingDistance);

@@ -44,7 +44,8 @@ static vtMesh makeRelief(HeightFcn* heightOf, int width, int height, float depth
     const float longer = (float)(width > height ? width - 1 : height - 1);
     for (int row = 0; row < height; ++row) {
         for (int column = 0; column < width; ++column) {
-            const float x = (float)(2 * column - width + 1) / longer, y = (float)(height - 1 - 2 * row) / longer;
+            const float x = (float)(2 * column - width + 1) / longer,
+                        y = (float)(height - 1 - 2 * row) / longer;
             heights[row * width + column] = heightOf(x, y);
         }
     }
@@ -130,9 +131,9 @@ static void rampIsAPrism(void** state)
     }
 }
 
-// A plano-convex paraboloid z = -r^2 / 2R seen along its axis from 100 before it: each ray leaves as the two surfaces'
-// normals say, and those near the axis meet at the eye's image, 1 / ((n - 1) / R - 1 / 100) less the glass's
-// thickness / n behind the back.
+// A plano-convex paraboloid z = -r^2 / 2R seen along its axis from 100 before it: each ray leaves as the two
+// surfaces' normals say, and those near the axis meet at the eye's image, 1 / ((n - 1) / R - 1 / 100) less
+// the glass's thickness / n behind the back.
 static void paraboloidFocuses(void** state)
 {
     Fixture* fixture = *state;
@@ -158,9 +159,11 @@ static void paraboloidFocuses(void** state)
         assert_true(degreesBetween(wanted, drawn) < 0.01f);
         const float r = hypotf(p.x, p.y);
         if (r > 0.1f && r < 0.25f) {
-            // The drawn direction from where the ray leaves the back: how far behind it, it comes to the axis.
+            // The drawn direction from where the ray leaves the back: how far behind it, it comes to the
+            // axis.
             const vtVec3 out = vtMulAdd(p, (back - p.z) / inner.z, inner);
-            const float distance = -(out.x * drawn.x + out.y * drawn.y) / (drawn.x * drawn.x + drawn.y * drawn.y);
+            const float distance =
+                -(out.x * drawn.x + out.y * drawn.y) / (drawn.x * drawn.x + drawn.y * drawn.y);
             const float focal = 1.0f / ((n - 1.0f) / R - 1.0f / 100.0f) + back / n;
             assert_near(-distance * drawn.z, focal, 0.01f * focal);
             ++axial;
@@ -204,10 +207,13 @@ static void checkScene(Fixture* fixture, vtScene* scene, const vtFrame* frame, d
     assert_ok(vtPrepareScene(scene, vt_techniqueExact, NULL, &error), error);
     assert_ok(vtCreateReference(scene, &reference, &error), error);
     assert_ok(vtReference_Trace(reference, &(vtReferenceDef){.frame = frame}, &truth, &error), error);
-    assert_ok(vtCompareDirections(fixture->directions, truth.directions, side * side, &difference, &error), error);
+    assert_ok(vtCompareDirections(fixture->directions, truth.directions, side * side, &difference, &error),
+              error);
     if (difference.pixels < 1000 || difference.within1 < share || difference.maskErrors > 12) {
-        fail_msg("%s: %.4f within 0.1 degrees, %.4f within 1, of %zu pixels, %.4f lost, %zu in one picture only", name,
-                 difference.within01, difference.within1, difference.pixels, difference.lost, difference.maskErrors);
+        fail_msg(
+            "%s: %.4f within 0.1 degrees, %.4f within 1, of %zu pixels, %.4f lost, %zu in one picture only",
+            name, difference.within01, difference.within1, difference.pixels, difference.lost,
+            difference.maskErrors);
     }
     vtDestroyReferenceImage(&truth);
     vtDestroyReference(reference);
@@ -222,16 +228,24 @@ static void directionsAreThoseOfATracer(void** state)
         int width, height;
         float depth, share;
     } reliefs[] = {
-        {"flat", flat, 2, 2, 0.1f, 0.999f},        {"ramp", ramp, 3, 9, 0.4f, 0.999f},
-        {"hills", hills, 65, 65, 0.3f, 0.995f},    {"hills, wide", hills, 200, 37, 0.2f, 0.995f},
-        {"hills, tall", hills, 30, 131, 0.2f, 0.995f}, {"hills, fine", hills, 512, 512, 0.3f, 0.995f},
+        {"flat", flat, 2, 2, 0.1f, 0.999f},
+        {"ramp", ramp, 3, 9, 0.4f, 0.999f},
+        {"hills", hills, 65, 65, 0.3f, 0.995f},
+        {"hills, wide", hills, 200, 37, 0.2f, 0.995f},
+        {"hills, tall", hills, 30, 131, 0.2f, 0.995f},
+        {"hills, fine", hills, 512, 512, 0.3f, 0.995f},
         {"spikes", spikes, 24, 24, 0.5f, 0.98f},
     };
-    const vtVec3 eyes[] = {{0.4f, 0.3f, 3.0f}, {-2.5f, 0.4f, 0.8f}, {0.7f, -1.0f, -2.6f}, {0.0f, 2.8f, 0.0f}, {0.05f, 0.02f, -0.05f}};
+    const vtVec3 eyes[] = {{0.4f, 0.3f, 3.0f},
+                           {-2.5f, 0.4f, 0.8f},
+                           {0.7f, -1.0f, -2.6f},
+                           {0.0f, 2.8f, 0.0f},
+                           {0.05f, 0.02f, -0.05f}};
     for (size_t i = 0; i < sizeof reliefs / sizeof reliefs[0]; ++i) {
         for (size_t eye = 0; eye < sizeof eyes / sizeof eyes[0]; ++eye) {
             vtScene scene = {0};
-            vtMesh mesh = makeRelief(reliefs[i].heightOf, reliefs[i].width, reliefs[i].height, reliefs[i].depth, 0.3f);
+            vtMesh mesh =
+                makeRelief(reliefs[i].heightOf, reliefs[i].width, reliefs[i].height, reliefs[i].depth, 0.3f);
             const vtMaterial material = vtDefaultMaterial();
             const vtTransform place = vtIdentityTransform();
             addMesh(&scene, &mesh, &material, &place);
