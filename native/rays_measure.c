@@ -221,7 +221,7 @@ static double timeWay(const Built* built, vtRaySet set, vtRayWay way, size_t* hi
     const double start = vtProcessorTime();
     size_t found = 0;
     int traced = 0;
-    for (int i = 0; i + stride <= vt_rayCount; i += stride) {
+    for (int i = way == vt_wayPackets ? 0 : stride / 2; i < vt_rayCount; i += stride) {
         vtHeightHit hit;
         if (way == vt_wayPackets) {
             found += tracePacket(built->triangles, &context, rays + i);
