@@ -17,5 +17,8 @@ vtResult vtRunBench(const vtOptions* options, vtError* error);
 /// `vitrine thesis`: the comparisons of Wang & Chi 2014, chapters 3 and 4, as a page.
 vtResult vtRunThesis(const vtOptions* options, vtError* error);
 
+/// `vitrine rays`: a relief traced by its heights, beside triangles made of them.
+vtResult vtRunRays(const vtOptions* options, vtError* error);
+
 /// `vitrine compare`: how far a result is from the truth. words[0] is "compare".
 vtResult vtRunCompare(int count, char** words, vtError* error);

@@ -268,6 +268,9 @@ static vtResult loadObjects(const vtOptions* options, vtScene* scene, vtError* e
 /// Whatever the command draws has what it needs.
 static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError* error)
 {
+    if (vtIsReference(options) && !options->innerDistances && !options->triangulates) {
+        return vtSucceed(error); // it takes reliefs by their heights
+    }
     const vtTechnique technique = options->innerDistances ? vt_techniqueWyman
                                   : options->triangulates
                                       ? vt_techniqueExact

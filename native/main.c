@@ -11,6 +11,7 @@ static void printUsage(void)
         "  vitrine render MODEL -o OUT.png [options]   draw a picture, no screen needed\n"
         "  vitrine ladder MODEL [options]              every technique beside the reference, with its error\n"
         "  vitrine bench MODEL [options]               time, memory and accuracy beside the reference\n"
+        "  vitrine rays RELIEF [options]               its heights traced beside Embree's triangles\n"
         "  vitrine compare A B [options]               measure a picture or directions against the truth\n"
         "  vitrine thesis -o FOLDER [--models FOLDER]  the comparisons of Wang & Chi 2014 as a page\n"
         "  vitrine view MODEL [options]                turn the object in a window\n"
@@ -65,7 +66,7 @@ static const struct {
 } commands[] = {
     {"render", vt_commandRender, vtRunRender}, {"view", vt_commandView, vtRunView},
     {"ladder", vt_commandLadder, vtRunLadder}, {"bench", vt_commandBench, vtRunBench},
-    {"thesis", vt_commandThesis, vtRunThesis},
+    {"thesis", vt_commandThesis, vtRunThesis}, {"rays", vt_commandRays, vtRunRays},
 };
 
 static int runCommand(int index, int count, char** words)

@@ -28,6 +28,7 @@ typedef struct Option {
 #define LADDER (1u << vt_commandLadder)
 #define THESIS (1u << vt_commandThesis)
 #define BENCH (1u << vt_commandBench)
+#define RAYS (1u << vt_commandRays)
 #define SCENE (RENDER | VIEW | LADDER | BENCH)
 #define AT(field) offsetof(vtOptions, field)
 
@@ -59,12 +60,13 @@ static const Option table[] = {
      SCENE},
     {"ior", 0, kindNumber, AT(ior), 1, 4, "N", "index of refraction of all glass (each object's own)", SCENE},
     {"relief", 0, kindNumber, AT(relief), 0, 10, "DEPTH",
-     "MODEL is a relief: its depth from black to white (0.1; a built-in one's own)", SCENE},
-    {"slab", 0, kindNumber, AT(slab), 0.001, 10, "THICKNESS", "a relief's glass behind black (0.1)", SCENE},
+     "MODEL is a relief: its depth from black to white (0.1; a built-in one's own)", SCENE | RAYS},
+    {"slab", 0, kindNumber, AT(slab), 0.001, 10, "THICKNESS", "a relief's glass behind black (0.1)",
+     SCENE | RAYS},
     {"smooth", 0, kindNumber, AT(smooth), 0, 64, "SAMPLES",
-     "a relief's heights are smoothed over so many (0; pictures of 8 bits 2)", SCENE},
+     "a relief's heights are smoothed over so many (0; pictures of 8 bits 2)", SCENE | RAYS},
     {"relief-size", 0, kindInteger, AT(reliefSize), 2, VT_MAX_RELIEF_SIDE, "N",
-     "samples along a side of a built-in relief (512)", SCENE},
+     "samples along a side of a built-in relief (512)", SCENE | RAYS},
     {"transmittance", 0, kindNumber, AT(transmittance), 0, 1, "T",
      "of a surface (kay-linear), of a unit of length (kay-thickness) (0.8)", SCENE},
     {"max-transmittance", 0, kindNumber, AT(maxTransmittance), 0, 1, "T", "kay-nonlinear (0.95)", SCENE},
@@ -77,9 +79,11 @@ static const Option table[] = {
     {"environment", 'e', kindText, AT(environment), 0, 0, "NAME|FILE",
      "see 'vitrine list', or a .hdr, .png or .jpg, equirectangular (studio)", SCENE},
     {"exposure", 0, kindNumber, AT(exposure), -20, 20, "EV", "brightens by a factor of 2 each (0)", SCENE},
-    {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)", SCENE},
-    {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)", SCENE},
-    {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", SCENE},
+    {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)",
+     SCENE | RAYS},
+    {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)",
+     SCENE | RAYS},
+    {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", SCENE | RAYS},
     {"camera-index", 0, kindInteger, AT(cameraIndex), 0, 65535, "N",
      "the files' camera of this number; --camera, --target and --fov go before it (none)", RENDER | VIEW},
     {"resolution", 'r', kindSize, AT(size), 1, 16384, "W,H", "pixels (512,512)", SCENE},
@@ -111,9 +115,9 @@ static const Option table[] = {
     {"reference-threshold", 0, kindNumber, AT(referenceThreshold), 0, 1, "T",
      "by more than this mean FLIP (0.05)", RENDER},
     {"table", 0, kindText, AT(table), 0, 0, "FILE", "the figures as a Markdown table; - is standard output",
-     LADDER | BENCH},
+     LADDER | BENCH | RAYS},
     {"json", 0, kindFlag, AT(json), 0, 0, NULL, "one JSON object on standard output instead of the table",
-     BENCH},
+     BENCH | RAYS},
     {"sweep", 0, kindText, AT(sweep), 0, 0, "triangles|resolution|objects|depth",
      "measure again and again: knot or torus of 1,000 to 1,000,000 triangles, pictures of 256 to 2048, or 1 "
      "to 16 copies side by side or one behind the other",
@@ -123,6 +127,7 @@ static const Option table[] = {
      "about so many, of the knot or the torus (theirs)", BENCH},
     {"rounds", 0, kindInteger, AT(rounds), 1, vt_maxTimingRounds, "N",
      "frames whose median is taken (9; 3 where they take more than 40 s)", BENCH},
+    {"rounds", 0, kindInteger, AT(rounds), 1, vt_maxTimingRounds, "N", "whose median is taken (5)", RAYS},
     {"threads", 0, kindInteger, AT(threads), 1, 32, "N", "of llvmpipe and of the reference (all processors)",
      BENCH},
     {"output", 'o', kindText, AT(output), 0, 0, "FOLDER", "where the page and its pictures go", THESIS},
@@ -130,8 +135,8 @@ static const Option table[] = {
      "holds the thesis's models as .glb; absent ones are left out", THESIS},
     {"frames", 0, kindInteger, AT(frames), 1, 1000000, "N", "close the window after so many frames", VIEW},
     {"verbose", 'v', kindFlag, AT(verbose), 0, 0, NULL, "say what is done, on what, with how much memory",
-     SCENE | THESIS},
-    {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", SCENE | THESIS},
+     SCENE | THESIS | RAYS},
+    {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", SCENE | THESIS | RAYS},
 };
 #define OPTION_COUNT ((int)(sizeof table / sizeof table[0]))
 

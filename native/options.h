@@ -64,7 +64,8 @@ typedef enum vtCommand {
     vt_commandView,
     vt_commandLadder,
     vt_commandThesis,
-    vt_commandBench
+    vt_commandBench,
+    vt_commandRays
 } vtCommand;
 
 /// Parses the words after the command. Fails with a sentence on an unknown option, a missing or malformed

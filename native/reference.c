@@ -18,7 +18,7 @@
 #include "reference_scene.h"
 
 /// Embree copies nothing by itself and reads beyond shared buffers, so it gets buffers of its own.
-static bool fillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh)
+bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh)
 {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     const size_t vertexSize = 3 * sizeof(float), triangleSize = 3 * sizeof(uint32_t);
@@ -62,7 +62,12 @@ static vtResult fillReference(vtReference* reference, vtError* error)
         RTCScene* mesh = &reference->meshes[object->meshIndex];
         if (*mesh == NULL) {
             *mesh = rtcNewScene(reference->device);
-            if (*mesh == NULL || !fillScene(reference->device, *mesh, object->mesh)) {
+            const bool isRelief = object->mesh->indexCount == 0;
+            const bool isFilled =
+                *mesh != NULL &&
+                (isRelief ? vtFillReliefScene(reference->device, *mesh, object->mesh->heights)
+                          : vtFillScene(reference->device, *mesh, object->mesh));
+            if (!isFilled) {
                 return vtFail(error, vt_errorMemory, "reference: Embree cannot hold a mesh of %u triangles",
                               object->mesh->indexCount / 3);
             }

@@ -17,6 +17,7 @@
 #include "base/math.h"
 #include "base/optics.h"
 #include "reference_scene.h"
+#include "scene/mesh_triangle.h"
 
 /// A reflected path of less than this share of the pixel's light is left out: a fifth of a step of 8 bits
 /// near white. Where glass is clear 0.04 reflects, so two reflections in a row are followed and three are
@@ -44,38 +45,26 @@ typedef struct Place {
 
 // ----------------------------------------------------------------------------------------------- geometry
 
-static vtVec3 interpolate(const float* values, const uint32_t* corners, float u, float v)
-{
-    const vtVec3 a = vtMakeVec3(values + 3 * (size_t)corners[0]);
-    const vtVec3 b = vtMakeVec3(values + 3 * (size_t)corners[1]);
-    const vtVec3 c = vtMakeVec3(values + 3 * (size_t)corners[2]);
-    return vtMulAdd(vtMulAdd(vtScale(a, 1.0f - u - v), u, b), v, c);
-}
-
-static const uint32_t* cornersOf(const vtPlacedObject* object, const vtSurfaceHit* hit)
-{
-    return object->mesh->indices + 3 * (size_t)hit->triangle;
-}
-
 static vtVec3 triangleNormal(const vtPlacedObject* object, const vtSurfaceHit* hit)
 {
-    const uint32_t* corners = cornersOf(object, hit);
-    const vtVec3 a = vtMakeVec3(object->mesh->positions + 3 * (size_t)corners[0]);
-    const vtVec3 b = vtMakeVec3(object->mesh->positions + 3 * (size_t)corners[1]);
-    const vtVec3 c = vtMakeVec3(object->mesh->positions + 3 * (size_t)corners[2]);
-    return vtNormalize(vtTransformNormal(&object->toObject, vtCross(vtSub(b, a), vtSub(c, a))));
+    vtVec3 p[3];
+    vtMesh_Corners(object->mesh, hit->triangle, p);
+    const vtVec3 normal = vtCross(vtSub(p[1], p[0]), vtSub(p[2], p[0]));
+    return vtNormalize(vtTransformNormal(&object->toObject, normal));
 }
 
 static vtVec3 surfaceNormal(const vtPlacedObject* object, const vtSurfaceHit* hit)
 {
-    const vtVec3 normal = interpolate(object->mesh->normals, cornersOf(object, hit), hit->u, hit->v);
-    return vtNormalize(vtTransformNormal(&object->toObject, normal));
+    vtVec3 normals[3];
+    vtMesh_Normals(object->mesh, hit->triangle, normals);
+    return vtNormalize(vtTransformNormal(&object->toObject, vtBlend(normals, hit->u, hit->v)));
 }
 
 static vtVec3 surfacePoint(const vtPlacedObject* object, const vtSurfaceHit* hit)
 {
-    return vtTransformPoint(&object->toWorld,
-                            interpolate(object->mesh->positions, cornersOf(object, hit), hit->u, hit->v));
+    vtVec3 corners[3];
+    vtMesh_Corners(object->mesh, hit->triangle, corners);
+    return vtTransformPoint(&object->toWorld, vtBlend(corners, hit->u, hit->v));
 }
 
 static vtVec3 mirror(vtVec3 I, vtVec3 N)

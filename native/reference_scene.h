@@ -79,6 +79,10 @@ typedef struct vtPathRules {
     bool fresnel;
 } vtPathRules;
 
+/// Fills an empty Embree scene with a mesh's triangles, and one with a relief without any.
+bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh);
+bool vtFillReliefScene(RTCDevice device, RTCScene scene, const vtHeightField* field);
+
 /// What is next for `count` paths, 1 to VT_PACKET, given by their numbers. `coherent`: neighbours go much the
 /// same way.
 void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths, const uint32_t* numbers,

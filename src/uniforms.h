@@ -8,6 +8,6 @@
 void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, vtEnvironmentKind environment,
                     vtFrameUniforms* uniforms);
 
-/// Those of one of its samples, the picture's frustum moved to it, and where `movesLayers` that of the layers; `count`
-/// samples are in the sum with it.
+/// Those of one of its samples, the picture's frustum moved to it, and where `movesLayers` that of the
+/// layers; `count` samples are in the sum with it.
 vtFrameUniforms vtMoveUniforms(const vtFrameUniforms* frame, int sample, int count, bool movesLayers);

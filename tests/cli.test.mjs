@@ -685,6 +685,21 @@ describe('measuring', () => {
     fails(['knot', '--rounds', '0'], ['--rounds is 0', 'from 1 to 99']);
   });
 
+  test('rays measures a relief and nothing else', () => {
+    const args = ['rays', 'ripples', '--relief-size', '33', '--rounds', '1', '--json', '--table', 'rays.md'];
+    const measured = vitrine(args);
+    if (/without Embree/.test(measured.error)) return;
+    assert.equal(measured.code, 0, measured.error);
+    const result = JSON.parse(measured.text);
+    assert.ok(result.milliseconds.heights.random > 0 && result.milliseconds.withoutBox.camera > 0);
+    assert.ok(result.differing[0] + result.differing[1] <= 20);
+    const table = readFileSync(join(folder, 'rays.md'), 'utf8');
+    assert.match(table, /33 x 33 samples/);
+    assert.match(table, /\| heights, through Embree \|/);
+    assert.match(table, /The source's method had 0\.93/);
+    assert.match(vitrine(['rays', 'knot']).error, /^vitrine: rays: 'knot' is no relief;[^\n]+\n$/);
+  });
+
   test('the thesis needs a folder and no model', () => {
     assert.match(vitrine(['thesis']).error, /add -o FOLDER/);
     assert.match(vitrine(['thesis', 'knot', '-o', 'x']).error, /'knot' is one too many/);

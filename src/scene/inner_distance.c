@@ -11,6 +11,11 @@ vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error)
     if (mesh->innerDistances != NULL) {
         return vtSucceed(error);
     }
+    if (mesh->indexCount == 0) {
+        return vtFail(
+            error, vt_errorGeometry,
+            "inner distances: the mesh is a relief without triangles; call vtTriangulateRelief first");
+    }
     vtBvh* bvh = vtCreateBvh(mesh);
     float* distances = malloc(mesh->vertexCount * sizeof *distances);
     if (bvh == NULL || distances == NULL) {

@@ -9,7 +9,9 @@
 #include "base/optics.h"
 #include "scene/bvh.h"
 #include "scene/camera.h"
+#include "scene/height_trace.h"
 #include "scene/media.h"
+#include "scene/mesh_triangle.h"
 #include "scene/objects.h"
 
 /// Surfaces passed by without an event before a path is given up, should rounding ever make an endless loop.
@@ -26,7 +28,7 @@ typedef struct Meeting {
 typedef struct Tracer {
     const vtScene* scene;
     vtPlacedObject* placed;
-    vtBvh** bvhs; ///< by mesh
+    vtBvh** bvhs; ///< by mesh; NULL: of a relief, whose heights need none
     uint32_t glassCount;
     float same; ///< surfaces nearer to one another lie at one place
     float ior;  ///< of all glass; 0: each object's own
@@ -37,21 +39,40 @@ static float degreesBetween(vtVec3 a, vtVec3 b)
     return atan2f(vtLength(vtCross(a, b)), vtDot(a, b)) * 180.0f / VT_PI;
 }
 
-static vtVec3 interpolate(const vtMesh* mesh, const float* values, const vtBvhHit* hit)
+// Reliefs are met by their heights even where they have triangles, whose numbers are others on the back.
+
+static void readCorners(const vtMesh* mesh, uint32_t triangle, vtVec3 corners[3])
 {
-    const uint32_t* corners = mesh->indices + 3 * (size_t)hit->triangle;
-    vtVec3 sum = vtScale(vtMakeVec3(values + 3 * (size_t)corners[0]), 1.0f - hit->u - hit->v);
-    sum = vtMulAdd(sum, hit->u, vtMakeVec3(values + 3 * (size_t)corners[1]));
-    return vtMulAdd(sum, hit->v, vtMakeVec3(values + 3 * (size_t)corners[2]));
+    if (mesh->heights != NULL) {
+        vtHeightField_Corners(mesh->heights, triangle, corners);
+    } else {
+        vtMesh_Corners(mesh, triangle, corners);
+    }
 }
 
-static vtVec3 flatNormal(const vtMesh* mesh, uint32_t triangle)
+static vtVec3 pointOf(const vtMesh* mesh, const vtBvhHit* hit)
 {
-    const uint32_t* corners = mesh->indices + 3 * (size_t)triangle;
-    vtVec3 a = vtMakeVec3(mesh->positions + 3 * (size_t)corners[0]);
-    vtVec3 b = vtMakeVec3(mesh->positions + 3 * (size_t)corners[1]);
-    vtVec3 c = vtMakeVec3(mesh->positions + 3 * (size_t)corners[2]);
-    return vtCross(vtSub(b, a), vtSub(c, a));
+    vtVec3 corners[3];
+    readCorners(mesh, hit->triangle, corners);
+    return vtBlend(corners, hit->u, hit->v);
+}
+
+static vtVec3 flatNormal(const vtMesh* mesh, const vtBvhHit* hit)
+{
+    vtVec3 p[3];
+    readCorners(mesh, hit->triangle, p);
+    return vtCross(vtSub(p[1], p[0]), vtSub(p[2], p[0]));
+}
+
+static vtVec3 smoothNormal(const vtMesh* mesh, const vtBvhHit* hit)
+{
+    vtVec3 normals[3];
+    if (mesh->heights != NULL) {
+        vtHeightField_Normals(mesh->heights, hit->triangle, normals);
+    } else {
+        vtMesh_Normals(mesh, hit->triangle, normals);
+    }
+    return vtBlend(normals, hit->u, hit->v);
 }
 
 static vtVec3 toWorld(const vtPlacedObject* placed, vtVec3 normal)
@@ -81,7 +102,7 @@ static vtResult createTracer(const vtScene* scene, Tracer* tracer, vtError* erro
     bool isThere = tracer->bvhs != NULL;
     for (uint32_t i = 0; i < scene->objectCount && isThere; ++i) {
         const uint32_t mesh = tracer->placed[i].meshIndex;
-        if (tracer->bvhs[mesh] == NULL) {
+        if (tracer->bvhs[mesh] == NULL && tracer->placed[i].mesh->heights == NULL) {
             tracer->bvhs[mesh] = vtCreateBvh(tracer->placed[i].mesh);
             isThere = tracer->bvhs[mesh] != NULL;
         }
@@ -96,6 +117,19 @@ static vtResult createTracer(const vtScene* scene, Tracer* tracer, vtError* erro
     return vt_ok;
 }
 
+static bool traceRelief(const vtMesh* mesh, vtVec3 origin, vtVec3 direction, float start, int sides,
+                        vtBvhHit* hit)
+{
+    vtHeightHit found;
+    hit->distance = FLT_MAX;
+    if (!vtHeightField_Trace(mesh->heights, origin, direction, start, FLT_MAX, sides, vt_separateAll,
+                             &found)) {
+        return false;
+    }
+    *hit = (vtBvhHit){found.distance, found.triangle, found.u, found.v};
+    return true;
+}
+
 /// The object's first surface beyond `start`. `sides`: 1 entered through, 2 left through, 3 either.
 static bool traceObject(const Tracer* tracer, uint32_t object, vtVec3 origin, vtVec3 direction, float start,
                         int sides, vtBvhHit* hit)
@@ -105,6 +139,9 @@ static bool traceObject(const Tracer* tracer, uint32_t object, vtVec3 origin, vt
     // Not made a unit vector, so that distances are the world's.
     const vtVec3 o = vtTransformPoint(&placed->toObject, origin);
     const vtVec3 d = vtTransformVector(&placed->toObject, direction);
+    if (placed->mesh->heights != NULL) {
+        return traceRelief(placed->mesh, o, d, start, sides, hit);
+    }
     vtBvhHit hits[2] = {{.distance = FLT_MAX}, {.distance = FLT_MAX}};
     const bool enters = (sides & 1) != 0 && vtBvh_Trace(bvh, o, d, start, false, &hits[0]);
     const bool leaves = (sides & 2) != 0 && vtBvh_Trace(bvh, o, d, start, true, &hits[1]);
@@ -152,8 +189,8 @@ static bool cross(const Tracer* tracer, const Meeting* meeting, int maxEvents, v
                   vtMedia* media, vtVec3* direction, vtPath* path)
 {
     const vtPlacedObject* placed = &tracer->placed[meeting->object];
-    const vtVec3 G = toWorld(placed, flatNormal(placed->mesh, meeting->hit.triangle));
-    const vtVec3 N = toWorld(placed, interpolate(placed->mesh, placed->mesh->normals, &meeting->hit));
+    const vtVec3 G = toWorld(placed, flatNormal(placed->mesh, &meeting->hit));
+    const vtVec3 N = toWorld(placed, smoothNormal(placed->mesh, &meeting->hit));
     const vtVec3 I = *direction;
     // The surface says on which side of it the path is.
     const bool leaving = vtDot(G, I) > 0.0f;
@@ -192,8 +229,7 @@ static void follow(const Tracer* tracer, int maxEvents, vtVec3 origin, vtVec3 di
     bool isLost = false;
     for (int pass = 0; !isLost && findNearest(tracer, &media, origin, direction, start, &meeting); ++pass) {
         const vtPlacedObject* placed = &tracer->placed[meeting.object];
-        origin = vtTransformPoint(&placed->toWorld,
-                                  interpolate(placed->mesh, placed->mesh->positions, &meeting.hit));
+        origin = vtTransformPoint(&placed->toWorld, pointOf(placed->mesh, &meeting.hit));
         bool isOpaque = meeting.object >= tracer->glassCount;
         if (!isOpaque) {
             const int events = path->eventCount;

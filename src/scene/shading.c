@@ -9,15 +9,7 @@
 
 #include "base/image.h"
 #include "base/math.h"
-
-/// Weighted sum of a corner's numbers.
-static vtVec3 blend(const float* values, const uint32_t* corners, float u, float v)
-{
-    const vtVec3 a = vtMakeVec3(values + 3 * (size_t)corners[0]);
-    const vtVec3 b = vtMakeVec3(values + 3 * (size_t)corners[1]);
-    const vtVec3 c = vtMakeVec3(values + 3 * (size_t)corners[2]);
-    return vtMulAdd(vtMulAdd(vtScale(a, 1.0f - u - v), u, b), v, c);
-}
+#include "scene/mesh_triangle.h"
 
 static vtVec3 multiply(vtVec3 a, vtVec3 b)
 {
@@ -60,16 +52,14 @@ static vtVec3 readImage(const vtScene* scene, int index, const float at[2], bool
 // ----------------------------------------------------------------- twins of shading.glsl, in the same order
 
 /// The interpolated normal on the viewer's side, or the triangle's own where that one faces away.
-static vtVec3 normalTowardsEye(const vtPlacedObject* object, const uint32_t* corners, float u, float v,
-                               vtVec3 I)
+static vtVec3 normalTowardsEye(const vtPlacedObject* object, uint32_t triangle, float u, float v, vtVec3 I)
 {
-    const float* positions = object->mesh->positions;
-    const vtVec3 A = vtMakeVec3(positions + 3 * (size_t)corners[0]);
-    const vtVec3 B = vtMakeVec3(positions + 3 * (size_t)corners[1]);
-    const vtVec3 C = vtMakeVec3(positions + 3 * (size_t)corners[2]);
+    vtVec3 p[3], normals[3];
+    vtMesh_Corners(object->mesh, triangle, p);
+    vtMesh_Normals(object->mesh, triangle, normals);
     const vtTransform* toObject = &object->toObject;
-    vtVec3 G = vtNormalize(vtTransformNormal(toObject, vtCross(vtSub(B, A), vtSub(C, A))));
-    vtVec3 N = vtNormalize(vtTransformNormal(toObject, blend(object->mesh->normals, corners, u, v)));
+    vtVec3 G = vtNormalize(vtTransformNormal(toObject, vtCross(vtSub(p[1], p[0]), vtSub(p[2], p[0]))));
+    vtVec3 N = vtNormalize(vtTransformNormal(toObject, vtBlend(normals, u, v)));
     const float side = vtDot(G, I) > 0.0f ? -1.0f : 1.0f;
     G = vtScale(G, side);
     N = vtScale(N, side);
@@ -87,22 +77,36 @@ static vtVec3 reflectedShare(vtVec3 F0, float roughness, float cosine)
                     fmaxf(F0.z * scale + bias, 0.0f)};
 }
 
-vtVec3 vtShadeSurface(const vtScene* scene, const vtPlacedObject* object, const vtLighting* lighting,
-                      uint32_t triangle, float u, float v, vtVec3 I)
+/// Texture coordinates and colour, where the mesh has them.
+static void readCorners(const vtMesh* mesh, uint32_t triangle, float u, float v, float at[2], vtVec3* color)
 {
-    const vtMesh* mesh = object->mesh;
-    const vtMaterial* material = object->material;
     const uint32_t* corners = mesh->indices + 3 * (size_t)triangle;
-    float at[2] = {0.0f, 0.0f};
     for (int k = 0; k < 2 && mesh->texcoords != NULL; ++k) {
         at[k] = (1.0f - u - v) * mesh->texcoords[2 * (size_t)corners[0] + (size_t)k] +
                 u * mesh->texcoords[2 * (size_t)corners[1] + (size_t)k] +
                 v * mesh->texcoords[2 * (size_t)corners[2] + (size_t)k];
     }
-    vtVec3 base = multiply(material->baseColor, readImage(scene, material->baseColorImage, at, true));
     if (mesh->colors != NULL) {
-        base = multiply(base, blend(mesh->colors, corners, u, v));
+        vtVec3 colors[3];
+        for (size_t i = 0; i < 3; ++i) {
+            colors[i] = vtMakeVec3(mesh->colors + 3 * (size_t)corners[i]);
+        }
+        *color = vtBlend(colors, u, v);
     }
+}
+
+vtVec3 vtShadeSurface(const vtScene* scene, const vtPlacedObject* object, const vtLighting* lighting,
+                      uint32_t triangle, float u, float v, vtVec3 I)
+{
+    const vtMesh* mesh = object->mesh;
+    const vtMaterial* material = object->material;
+    float at[2] = {0.0f, 0.0f};
+    vtVec3 color = {1.0f, 1.0f, 1.0f};
+    if (mesh->indexCount > 0) { // reliefs have neither
+        readCorners(mesh, triangle, u, v, at, &color);
+    }
+    vtVec3 base = multiply(material->baseColor, readImage(scene, material->baseColorImage, at, true));
+    base = multiply(base, color);
     const float squares = floorf(material->checker * at[0]) + floorf(material->checker * at[1]);
     if (2.0f * vtFract(0.5f * squares) > 0.5f) { // odd
         base = vtScale(base, 0.15f);
@@ -110,7 +114,7 @@ vtVec3 vtShadeSurface(const vtScene* scene, const vtPlacedObject* object, const 
     const vtVec3 share = readImage(scene, material->metallicRoughnessImage, at, false);
     const float roughness = material->roughness * share.y, metallic = material->metallic * share.z;
 
-    const vtVec3 N = normalTowardsEye(object, corners, u, v, I);
+    const vtVec3 N = normalTowardsEye(object, triangle, u, v, I);
     const float cosine = -vtDot(N, I);
     const vtVec3 R = vtNormalize(vtMulAdd(I, 2.0f * cosine, N));
     const vtVec3 dielectric = {0.04f, 0.04f, 0.04f};
