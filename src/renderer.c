@@ -792,6 +792,7 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
                         vtRefractPass_Bytes(&renderer->refract) + vtShadePass_Bytes(&renderer->shade) +
                         vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image),
         .meshBytes = renderer->scene.meshBytes,
+        .heightBytes = vtHeightTexture_Bytes(&renderer->scene.heights),
         .layerWidth = renderer->peel.depths.width,
         .layerHeight = renderer->peel.depths.height,
     };
