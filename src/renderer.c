@@ -258,6 +258,15 @@ static bool hasOpaque(const vtRenderer* renderer)
     return renderer->scene.objectCount > renderer->scene.glassCount;
 }
 
+static bool onlyRelief(const vtRenderer* renderer)
+{
+    bool only = true;
+    for (uint32_t i = 0; i < renderer->scene.objectCount; ++i) {
+        only = only && vtSceneBuffer_HasHeights(&renderer->scene, i);
+    }
+    return only;
+}
+
 static vtSurfaceKind chooseSurfaceKind(const vtFrame* frame)
 {
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
@@ -273,7 +282,7 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     const vtPeelKind kind = choosePeelKind(frame);
     const int sets =
         kind == vt_peelEachObject && renderer->scene.glassCount > 0 ? (int)renderer->scene.glassCount : 1;
-    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer), onlyRelief(renderer));
     vtResult result = vt_ok;
     if (row->surface) {
         result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
@@ -375,7 +384,7 @@ static vtResult prepareFrame(vtRenderer* renderer, const vtFrame* frame, vtFrame
                  frame->topLevel},
         .scene = {(int)scene->glassCount, (int)scene->objectCount,
                   frame->fresnel && frame->output == vt_outputPicture,
-                  row->findsOpaque && vtFrame_Variant(frame, true) != vt_variantOrdered},
+                  row->findsOpaque && vtFrame_Variant(frame, true, false) != vt_variantOrdered},
         .output = {frame->output, frame->layer, renderer->environment, frame->transparentBackground},
     };
     setCamera(uniforms, &frame->view);
@@ -476,7 +485,7 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
 {
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
-    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer), onlyRelief(renderer));
     if (row->surface) {
         vtSurfacePass_Draw(&renderer->surface, gl, &renderer->scene, 0, renderer->scene.glassCount,
                            chooseSurfaceKind(frame), renderer->emptyVertexArray);

@@ -17,6 +17,7 @@ typedef enum vtLayerSpace {
 typedef enum vtVariant {
     vt_variantAny = 0, ///< through all glass
     vt_variantOpaque,  ///< the same where the scene has something opaque, if a technique has one of its own
+    vt_variantHeights, ///< the same where there is nothing but a relief that it meets by its heights
     vt_variantOrdered, ///< through one object, from where the objects before have left the path
                        ///< (vt_multiOrdered)
     vt_variantCount,
@@ -40,9 +41,9 @@ typedef struct vtTechniqueRow {
 
 const vtTechniqueRow* vtTechnique_Row(vtTechnique technique);
 
-/// The program for the frame; `opaque`: there is something that is. Ordered where frame->multi says so and
-/// the technique can.
-vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque);
+/// The program for the frame; `opaque`: there is something that is; `onlyRelief`: nothing but one with
+/// heights. Ordered where frame->multi says so and the technique can.
+vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque, bool onlyRelief);
 
 /// Layers that the frame's technique peels.
 int vtFrame_LayerCount(const vtFrame* frame);
