@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "files.h"
+#include "scene/objects.h"
 #include "scene/shapes.h"
 #include "technique.h"
 #include "trace.h"
@@ -18,7 +19,7 @@ const char* vtSweepName(vtSweep sweep)
 {
     static const char* const names[vt_sweepCount] = {
         [vt_sweepNone] = "",           [vt_sweepTriangles] = "triangles", [vt_sweepResolution] = "resolution",
-        [vt_sweepObjects] = "objects", [vt_sweepDepth] = "depth",
+        [vt_sweepObjects] = "objects", [vt_sweepDepth] = "depth",         [vt_sweepRelief] = "relief",
     };
     return names[sweep];
 }
@@ -40,7 +41,7 @@ static void labelRow(vtBenchRow* row)
     row->id = technique->info.id;
     const bool cells =
         row->frame.search == vt_searchCells && technique->refract[vt_variantCells].name != NULL;
-    if (technique->cube) {
+    if (technique->cube && !technique->heights) {
         snprintf(row->label, sizeof row->label, "%s, %d layers of %d", row->id, row->frame.layers,
                  row->frame.cubeSize);
     } else if (technique->layers == VT_LAYERS_OF_FRAME) {
@@ -87,9 +88,8 @@ static vtResult setRows(const vtOptions* options, const vtSession* session, vtBe
                : vtFail(error, vt_errorArgument, "--technique names none; see 'vitrine list'");
 }
 
-/// `copies` of the model are in the session's scene.
-static vtResult runCase(const vtOptions* options, vtSession* session, int copies, vtBench* bench,
-                        vtError* error)
+vtResult vtBench_RunCase(const vtOptions* options, vtSession* session, int copies, vtBench* bench,
+                         vtError* error)
 {
     vtBenchCase* measured = &bench->cases[bench->caseCount];
     vtResult result = setRows(options, session, bench, measured, error);
@@ -100,13 +100,16 @@ static vtResult runCase(const vtOptions* options, vtSession* session, int copies
     measured->copies = copies;
     measured->width = options->size[0];
     measured->height = options->size[1];
-    char times[24] = "";
+    const bool isRelief = bench->sweep == vt_sweepRelief;
+    char times[24] = "", size[32];
     snprintf(times, sizeof times, copies > 1 ? "%d times " : "", copies);
-    fprintf(stderr, "vitrine: bench: %s%s, %d triangles, %d x %d\n", times, bench->model, measured->triangles,
-            measured->width, measured->height);
+    snprintf(size, sizeof size, isRelief ? "%d samples a side" : "%d triangles",
+             isRelief ? options->reliefSize : measured->triangles);
+    fprintf(stderr, "vitrine: bench: %s%s, %s, %d x %d\n", times, bench->model, size, measured->width,
+            measured->height);
     bench->ior = vtCommonIor(&session->input);
     bench->maxEvents = measured->rows[0].frame.maxEvents;
-    result = vtBench_Measure(options, session, bench, measured, error);
+    result = (isRelief ? vtBench_MeasureRelief : vtBench_Measure)(options, session, bench, measured, error);
     bench->caseCount += result == vt_ok;
     return result;
 }
@@ -120,7 +123,7 @@ static vtResult sweepTriangles(const vtOptions* options, vtSession* session, vtB
         each.triangles = counts[i];
         result = vtSession_SetModel(session, &each, error);
         if (result == vt_ok) {
-            result = runCase(&each, session, 1, bench, error);
+            result = vtBench_RunCase(&each, session, 1, bench, error);
         }
     }
     return result;
@@ -132,7 +135,7 @@ static vtResult sweepResolution(const vtOptions* options, vtSession* session, vt
     for (int side = 256; side <= 2048 && result == vt_ok; side *= 2) {
         vtOptions each = *options;
         each.size[0] = each.size[1] = side;
-        result = runCase(&each, session, 1, bench, error);
+        result = vtBench_RunCase(&each, session, 1, bench, error);
     }
     return result;
 }
@@ -160,7 +163,7 @@ static vtResult sweepObjects(const vtOptions* options, vtSession* session, vtBen
             result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
         }
         if (result == vt_ok) {
-            result = runCase(&each, session, count, bench, error);
+            result = vtBench_RunCase(&each, session, count, bench, error);
         }
     }
     vtDestroyCopies(&copies);
@@ -177,8 +180,10 @@ static vtResult runCases(const vtOptions* options, vtSession* session, vtBench* 
     case vt_sweepObjects:
     case vt_sweepDepth:
         return sweepObjects(options, session, bench, error);
+    case vt_sweepRelief:
+        return vtBench_SweepRelief(options, session, bench, error);
     default:
-        return runCase(options, session, 1, bench, error);
+        return vtBench_RunCase(options, session, 1, bench, error);
     }
 }
 
@@ -218,11 +223,12 @@ static vtResult checkOptions(const vtOptions* options, vtSweep sweep, vtError* e
 {
     if (sweep == vt_sweepCount) {
         return vtFail(error, vt_errorArgument,
-                      "--sweep is '%s'; it must be objects, depth, triangles or resolution", options->sweep);
+                      "--sweep is '%s'; it must be objects, depth, relief, triangles or resolution",
+                      options->sweep);
     }
     if (options->plot != NULL && sweep == vt_sweepNone) {
         return vtFail(error, vt_errorArgument,
-                      "--plot draws a sweep; add --sweep objects, depth, triangles or resolution");
+                      "--plot draws a sweep; add --sweep objects, depth, relief, triangles or resolution");
     }
     const bool counted = options->triangles > 0 || sweep == vt_sweepTriangles;
     if (counted && options->model == NULL && options->objectCount > 0) {
@@ -236,7 +242,7 @@ static vtResult checkOptions(const vtOptions* options, vtSweep sweep, vtError* e
             "--sweep triangles needs a model of any number of triangles, knot or torus; '%s' is not",
             options->model);
     }
-    return vt_ok;
+    return sweep == vt_sweepRelief ? vtBench_CheckRelief(options, error) : vt_ok;
 }
 
 /// vt_sweepCount where there is none of that name.
@@ -248,6 +254,17 @@ static vtSweep findSweep(const char* name)
         ++sweep;
     }
     return (vtSweep)sweep;
+}
+
+static vtResult openSession(const vtOptions* options, vtSweep sweep, vtSession* session, vtError* error)
+{
+    vtOptions opened = *options;
+    if (sweep == vt_sweepRelief) {
+        opened.reliefSize = vtReliefSweepSize(options, 0);
+        opened.technique = VT_RELIEF_TECHNIQUE;
+        opened.triangulates = false;
+    }
+    return vtOpenSession(&opened, session, error);
 }
 
 vtResult vtRunBench(const vtOptions* given, vtError* error)
@@ -263,14 +280,22 @@ vtResult vtRunBench(const vtOptions* given, vtError* error)
     if (options.threads > 0) {
         setenv("LP_NUM_THREADS", threads, 1); // before llvmpipe starts
     }
-    if (vtSweepsObjects(sweep) && strcmp(options.technique, VT_BENCH_TECHNIQUES) == 0) {
+    const bool isDefault = strcmp(options.technique, VT_BENCH_TECHNIQUES) == 0;
+    if (vtSweepsObjects(sweep) && isDefault) {
         options.technique = vtTechnique_Info(vt_techniqueExact)->id; // bvh draws one object
     }
     options.innerDistances = strstr(options.technique, "wyman") != NULL;
     vtSession session;
-    result = vtOpenSession(&options, &session, error);
+    result = openSession(&options, sweep, &session, error);
     if (result != vt_ok) {
         return result;
+    }
+    const vtScene* scene = &session.input.scene;
+    if (sweep == vt_sweepRelief) {
+        options.triangulates = false;
+        options.technique = VT_RELIEF_TECHNIQUE ",exact";
+    } else if (isDefault && !vtSweepsObjects(sweep) && vtScene_Relief(scene) < scene->meshCount) {
+        options.technique = VT_RELIEF_TECHNIQUE "," VT_BENCH_TECHNIQUES;
     }
     vtBench* bench = calloc(1, sizeof *bench);
     if (bench == NULL) {

@@ -21,6 +21,7 @@ typedef enum vtSweep {
     vt_sweepResolution,
     vt_sweepObjects, ///< copies side by side, each as large in the picture as one alone
     vt_sweepDepth,   ///< copies one behind the other, all as large in the picture
+    vt_sweepRelief,  ///< samples of a relief, by its heights and as triangles
     vt_sweepCount,
 } vtSweep;
 
@@ -41,19 +42,30 @@ typedef struct vtBenchRow {
     vtTiming time;
     vtTiming stages[vt_benchStages]; ///< medians, GL finished after each; 0 where there is none
     double build;                    ///< milliseconds, once a mesh, shaders compiled: cube or hierarchy
+    double upload;                   ///< milliseconds, vtRenderer_SetScene
     size_t textureBytes;             ///< all that the renderer holds for it but the mesh
+    size_t meshBytes, heightBytes;   ///< on the GPU; the latter are part of textureBytes
     vtDirectionError error;          ///< where the true path has at most 4 events
     double readsAPath, readsAnEvent;
+    // A sweep over a relief's samples only.
+    double triangulation;       ///< milliseconds
+    size_t hostBytes;           ///< of the heights or the mesh, beside the GPU
+    size_t glassBytes;          ///< on the GPU: heights, or mesh and layers
+    vtDirectionError agreement; ///< with the other technique's directions
+    char absent[512];           ///< why it could not be drawn; "": it was
 } vtBenchRow;
 
 /// All techniques on one mesh at one size.
 typedef struct vtBenchCase {
     int triangles, width, height;
-    int copies; ///< of the model, 1 without a sweep over them
+    int copies;  ///< of the model, 1 without a sweep over them
+    int samples; ///< a side of the relief; 0 without a sweep over them
     int rounds;
     size_t paths;       ///< pixels that see glass
     double eventsAPath; ///< of the true paths, mean
-    vtTiming traced;    ///< the reference, directions only
+    vtTiming traced;    ///< the reference, directions only; 0: not traced, see untraced
+    char untraced[128]; ///< why
+    double flip;        ///< mean, between the pictures of a sweep over a relief's samples
     double tracerBuild; ///< milliseconds, of the reference's search structure
     double upload;      ///< milliseconds, vtRenderer_SetScene
     size_t meshBytes;   ///< on the GPU
@@ -77,9 +89,39 @@ typedef struct vtBench {
 /// Times of the row over those of the technique `layered` in the same case; 0 where that is not measured.
 vtTiming vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, int row);
 
+/// Measures the session's scene, in which there are `copies` of the model, as the bench's next case.
+vtResult vtBench_RunCase(const vtOptions* options, vtSession* session, int copies, vtBench* bench,
+                         vtError* error);
+
 /// Measures the session's scene as the case whose rows hold their frames; the reference takes its turns.
 vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtBench* bench,
                          vtBenchCase* measured, vtError* error);
+
+/// What a renderer of its own costs that draws this technique only: memory, and time to upload and to build,
+/// shaders compiled.
+vtResult vtBench_Probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row, vtError* error);
+
+/// Accuracy and times of the rows that are not absent. reference: NULL where there is none.
+vtResult vtBench_Compare(const vtOptions* options, vtSession* session, const vtReference* reference,
+                         const vtBench* bench, vtBenchCase* measured, vtError* error);
+
+/// As vtBench_Measure: the session's scene is a relief without triangles, the rows are heightfield and exact.
+/// Afterwards the scene has triangles.
+vtResult vtBench_MeasureRelief(const vtOptions* options, vtSession* session, const vtBench* bench,
+                               vtBenchCase* measured, vtError* error);
+
+/// Fails with a sentence where the options do not suit a sweep over a relief's samples.
+vtResult vtBench_CheckRelief(const vtOptions* options, vtError* error);
+/// All its cases; the session's scene is the least of the sizes, without triangles.
+vtResult vtBench_SweepRelief(const vtOptions* options, vtSession* session, vtBench* bench, vtError* error);
+
+/// A relief is measured at five sizes, each twice the one before, up to the given or the largest one.
+enum { vt_reliefSizes = 5, vt_leastReliefSweep = 2 << (vt_reliefSizes - 1) };
+static inline int vtReliefSweepSize(const vtOptions* options, int index)
+{
+    const int last = options->reliefSize > 0 ? options->reliefSize : VT_MAX_RELIEF_SIDE;
+    return last >> (vt_reliefSizes - 1 - index);
+}
 
 /// Fits the eye and the copies of what the session's scene has to a sweep over objects.
 typedef struct vtCopies {
@@ -101,6 +143,11 @@ void vtDestroyCopies(vtCopies* copies);
 
 void vtBench_WriteTable(const vtBench* bench, FILE* out);
 void vtBench_WriteJson(const vtBench* bench, FILE* out);
+/// The part of the table, and of a row's JSON, that a sweep over a relief's samples has.
+void vtBench_WriteRelief(const vtBench* bench, FILE* out);
+void vtBenchRow_WriteReliefJson(const vtBenchRow* row, FILE* out);
+/// A string as a member of a JSON object, a comma behind it.
+void vtWriteJsonText(const char* name, const char* text, FILE* out);
 
 /// Times over the sweep's variable, both logarithmic, SVG.
 void vtBench_WritePlot(const vtBench* bench, FILE* out);

@@ -57,9 +57,7 @@ static vtResult drawStages(vtSession* session, vtRenderer* renderer, const vtFra
     return vtRenderer_DrawImage(renderer, &timed, NULL, error);
 }
 
-/// What a renderer of its own costs that draws this technique only: memory, and time to build, shaders
-/// compiled.
-static vtResult probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row, vtError* error)
+vtResult vtBench_Probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row, vtError* error)
 {
     vtRenderer* renderer = NULL;
     StageClock clock;
@@ -71,7 +69,7 @@ static vtResult probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row
         clock = startClock(session);
         result = vtRenderer_SetScene(renderer, &session->input.scene, error);
         clock.finish();
-        measured->upload = vtNow() - clock.last.wall;
+        row->upload = measured->upload = vtNow() - clock.last.wall;
         if (result == vt_ok) {
             result = drawStages(session, renderer, &row->frame, &clock, error);
         }
@@ -79,7 +77,8 @@ static vtResult probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row
     if (result == vt_ok) {
         const vtRendererInfo info = vtRenderer_Info(renderer);
         row->textureBytes = info.textureBytes;
-        measured->meshBytes = info.meshBytes;
+        row->meshBytes = measured->meshBytes = info.meshBytes;
+        row->heightBytes = info.heightBytes;
         row->build = clock.build;
     }
     vtDestroyRenderer(renderer);
@@ -118,9 +117,10 @@ static void countReads(const uint32_t* states, size_t count, vtBenchRow* row)
     row->readsAnEvent = events > 0.0 ? reads / events : 0.0;
 }
 
+/// `truth`: without pixels where nothing was traced.
 static vtResult checkRow(vtSession* session, const vtReferenceImage* truth, vtBenchRow* row, vtError* error)
 {
-    const size_t count = (size_t)truth->width * (size_t)truth->height;
+    const size_t count = (size_t)row->frame.width * (size_t)row->frame.height;
     const vtEventRange few = {1, 4};
     float* directions = malloc(3 * sizeof *directions * count);
     uint32_t* states = malloc(sizeof *states * count);
@@ -132,7 +132,7 @@ static vtResult checkRow(vtSession* session, const vtReferenceImage* truth, vtBe
     if (result == vt_ok) {
         result = vtRenderer_ReadDirections(session->renderer, directions, error);
     }
-    if (result == vt_ok) {
+    if (result == vt_ok && truth->directions != NULL) {
         result = vtCompareDirectionsOfEvents(directions, truth->directions, truth->events, count, few,
                                              &row->error, error);
     }
@@ -153,9 +153,9 @@ static vtResult checkRow(vtSession* session, const vtReferenceImage* truth, vtBe
 static vtResult checkRows(vtSession* session, const vtReference* reference, const vtBench* bench,
                           vtBenchCase* measured, vtError* error)
 {
-    vtReferenceImage truth;
+    vtReferenceImage truth = {0};
     vtReferenceDef def = {.frame = &measured->rows[0].frame, .threads = bench->threads};
-    vtResult result = vtReference_Trace(reference, &def, &truth, error);
+    vtResult result = reference != NULL ? vtReference_Trace(reference, &def, &truth, error) : vt_ok;
     double events = 0.0;
     for (size_t i = 0; result == vt_ok && i < (size_t)truth.width * (size_t)truth.height; ++i) {
         measured->paths += truth.states[i] != VT_PATH_BACKGROUND;
@@ -163,7 +163,8 @@ static vtResult checkRows(vtSession* session, const vtReference* reference, cons
     }
     measured->eventsAPath = measured->paths > 0 ? events / (double)measured->paths : 0.0;
     for (int i = 0; i < bench->rowCount && result == vt_ok; ++i) {
-        result = checkRow(session, &truth, &measured->rows[i], error);
+        const bool absent = measured->rows[i].absent[0] != '\0';
+        result = absent ? vt_ok : checkRow(session, &truth, &measured->rows[i], error);
     }
     vtDestroyReferenceImage(&truth);
     return result;
@@ -174,17 +175,29 @@ static vtResult timeRows(const vtOptions* options, vtSession* session, const vtR
 {
     vtFrame frames[vt_maxBenchRows];
     vtTiming times[vt_maxBenchRows];
+    vtBenchRow* timed[vt_maxBenchRows];
+    int count = 0;
     for (int i = 0; i < bench->rowCount; ++i) {
-        frames[i] = measured->rows[i].frame;
+        if (measured->rows[i].absent[0] == '\0') {
+            timed[count] = &measured->rows[i];
+            frames[count++] = measured->rows[i].frame;
+        }
     }
-    const vtTimingDef def = {session->renderer, frames,          bench->rowCount, reference,
+    const vtTimingDef def = {session->renderer, frames,          count,    reference,
                              bench->threads,    options->rounds, timeLimit};
     vtResult result = vtTimeFrames(&def, times, &measured->traced, &measured->rounds, error);
-    for (int i = 0; i < bench->rowCount && result == vt_ok; ++i) {
-        measured->rows[i].time = times[i];
-        result = timeStages(session, &measured->rows[i], measured->rounds, error);
+    for (int i = 0; i < count && result == vt_ok; ++i) {
+        timed[i]->time = times[i];
+        result = timeStages(session, timed[i], measured->rounds, error);
     }
     return result;
+}
+
+vtResult vtBench_Compare(const vtOptions* options, vtSession* session, const vtReference* reference,
+                         const vtBench* bench, vtBenchCase* measured, vtError* error)
+{
+    const vtResult result = checkRows(session, reference, bench, measured, error);
+    return result == vt_ok ? timeRows(options, session, reference, bench, measured, error) : result;
 }
 
 vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtBench* bench,
@@ -193,7 +206,7 @@ vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtB
     vtReference* reference = NULL;
     vtResult result = vt_ok;
     for (int i = 0; i < bench->rowCount && result == vt_ok; ++i) {
-        result = probe(session, measured, &measured->rows[i], error);
+        result = vtBench_Probe(session, measured, &measured->rows[i], error);
     }
     const double start = vtNow();
     if (result == vt_ok) {
@@ -201,10 +214,7 @@ vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtB
     }
     measured->tracerBuild = vtNow() - start;
     if (result == vt_ok) {
-        result = checkRows(session, reference, bench, measured, error);
-    }
-    if (result == vt_ok) {
-        result = timeRows(options, session, reference, bench, measured, error);
+        result = vtBench_Compare(options, session, reference, bench, measured, error);
     }
     vtDestroyReference(reference);
     return result;

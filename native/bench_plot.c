@@ -1,4 +1,5 @@
-// A sweep as a picture: time over triangles, pixels or objects, both logarithmic, one line a technique.
+// A sweep as a picture: time over triangles, pixels, objects or samples, both logarithmic, one line a
+// technique.
 #include <math.h>
 #include <string.h>
 
@@ -8,12 +9,13 @@
 static const double width = 760.0, height = 460.0, left = 70.0, right = 150.0, top = 20.0, bottom = 50.0;
 
 typedef struct Axes {
-    double low[2], high[2]; // log10 of triangles, pixels or objects, of milliseconds
+    double low[2], high[2]; // log10 of triangles, pixels, objects or samples, of milliseconds
 } Axes;
 
 static double variable(const vtBench* bench, const vtBenchCase* measured)
 {
     return vtSweepsObjects(bench->sweep)       ? (double)measured->copies
+           : bench->sweep == vt_sweepRelief    ? (double)measured->samples
            : bench->sweep == vt_sweepTriangles ? (double)measured->triangles
                                                : (double)measured->width * (double)measured->height;
 }
@@ -24,7 +26,7 @@ static bool takesProcessorTime(const vtBench* bench)
     return strstr(bench->device, "llvmpipe") != NULL;
 }
 
-/// Time of a row; of the reference behind the last one.
+/// Time of a row; of the reference behind the last one. 0: it was not measured.
 static double timeOf(const vtBench* bench, const vtBenchCase* measured, int row)
 {
     const vtTiming* time = row < bench->rowCount ? &measured->rows[row].time : &measured->traced;
@@ -46,6 +48,9 @@ static Axes fitAxes(const vtBench* bench)
     Axes axes = {{1e9, 1e9}, {-1e9, -1e9}};
     for (int i = 0; i < bench->caseCount; ++i) {
         for (int row = 0; row <= bench->rowCount; ++row) {
+            if (timeOf(bench, &bench->cases[i], row) == 0.0) {
+                continue;
+            }
             const double point[2] = {log10(variable(bench, &bench->cases[i])),
                                      log10(timeOf(bench, &bench->cases[i], row))};
             for (int k = 0; k < 2; ++k) {
@@ -94,6 +99,7 @@ static void writeGrid(const vtBench* bench, const Axes* axes, FILE* out)
             bench->sweep == vt_sweepTriangles    ? "by triangles"
             : bench->sweep == vt_sweepResolution ? "by pixels"
             : bench->sweep == vt_sweepDepth      ? "by objects, one behind the other"
+            : bench->sweep == vt_sweepRelief     ? "by samples along a side of the relief"
                                                  : "by objects");
 }
 
@@ -105,11 +111,17 @@ static void writeLine(const vtBench* bench, const Axes* axes, int row, double la
     fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"2\"%s points=\"", color,
             isReference ? " stroke-dasharray=\"6 4\"" : "");
     for (int i = 0; i < bench->caseCount; ++i) {
+        if (timeOf(bench, &bench->cases[i], row) == 0.0) {
+            continue;
+        }
         fprintf(out, "%.1f,%.1f ", across(axes, variable(bench, &bench->cases[i])),
                 down(axes, timeOf(bench, &bench->cases[i], row)));
     }
     fprintf(out, "\"/>\n");
     for (int i = 0; i < bench->caseCount; ++i) {
+        if (timeOf(bench, &bench->cases[i], row) == 0.0) {
+            continue;
+        }
         fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>",
                 across(axes, variable(bench, &bench->cases[i])),
                 down(axes, timeOf(bench, &bench->cases[i], row)), color);
@@ -118,10 +130,19 @@ static void writeLine(const vtBench* bench, const Axes* axes, int row, double la
             isReference ? "reference (Embree)" : bench->cases[0].rows[row].label);
 }
 
+/// Time of a row in the last case that it was measured in.
+static double lastTime(const vtBench* bench, int row)
+{
+    double time = 0.0;
+    for (int i = bench->caseCount - 1; i >= 0 && time == 0.0; --i) {
+        time = timeOf(bench, &bench->cases[i], row);
+    }
+    return time > 0.0 ? time : 1.0; // a label has a place all the same
+}
+
 void vtBench_WritePlot(const vtBench* bench, FILE* out)
 {
     const Axes axes = fitAxes(bench);
-    const vtBenchCase* last = &bench->cases[bench->caseCount - 1];
     fprintf(out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" font-family=\"sans-serif\" "
             "font-size=\"12\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n",
@@ -134,12 +155,12 @@ void vtBench_WritePlot(const vtBench* bench, FILE* out)
     for (int n = 0; n <= bench->rowCount; ++n) {
         int next = -1;
         for (int row = 0; row <= bench->rowCount; ++row) {
-            if (!written[row] && (next < 0 || timeOf(bench, last, row) > timeOf(bench, last, next))) {
+            if (!written[row] && (next < 0 || lastTime(bench, row) > lastTime(bench, next))) {
                 next = row;
             }
         }
         written[next] = true;
-        lowest = fmax(lowest + 15.0, down(&axes, timeOf(bench, last, next)) + 4.0);
+        lowest = fmax(lowest + 15.0, down(&axes, lastTime(bench, next)) + 4.0);
         writeLine(bench, &axes, next, lowest, out);
     }
     fprintf(out, "</svg>\n");

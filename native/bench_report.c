@@ -25,7 +25,7 @@ static void writeHeader(const vtBench* bench, FILE* out)
     shortName(bench->model, name);
     const vtBenchCase* first = &bench->cases[0];
     fprintf(out, "`%s`", name);
-    if (bench->sweep != vt_sweepTriangles) {
+    if (bench->sweep != vt_sweepTriangles && bench->sweep != vt_sweepRelief) {
         fprintf(out, ", %d triangles", first->triangles);
     }
     if (bench->sweep != vt_sweepResolution) {
@@ -145,6 +145,10 @@ void vtBench_WriteTable(const vtBench* bench, FILE* out)
         writeObjects(bench, out);
         return;
     }
+    if (bench->sweep == vt_sweepRelief) {
+        vtBench_WriteRelief(bench, out);
+        return;
+    }
     if (bench->sweep != vt_sweepNone) {
         fprintf(out, "| %s ", vtSweepName(bench->sweep));
     }
@@ -169,7 +173,7 @@ void vtBench_WriteTable(const vtBench* bench, FILE* out)
     }
 }
 
-static void writeText(const char* name, const char* text, FILE* out)
+void vtWriteJsonText(const char* name, const char* text, FILE* out)
 {
     fprintf(out, "\"%s\":\"", name);
     for (; *text != '\0'; ++text) {
@@ -189,11 +193,16 @@ static void writeJsonRow(const vtBench* bench, const vtBenchCase* measured, int 
     const vtBenchRow* row = &measured->rows[index];
     const vtTiming toLayered = vtBench_ToLayered(bench, measured, index);
     fprintf(out, "{");
-    writeText("id", row->id, out);
-    writeText("label", row->label, out);
-    fprintf(out, "\"wall\":%.4f,\"cpu\":%.4f,\"wallToReference\":%.5f,\"cpuToReference\":%.5f,",
-            row->time.wall, row->time.processor, row->time.wall / measured->traced.wall,
-            row->time.processor / measured->traced.processor);
+    vtWriteJsonText("id", row->id, out);
+    vtWriteJsonText("label", row->label, out);
+    if (bench->sweep == vt_sweepRelief) {
+        vtBenchRow_WriteReliefJson(row, out);
+    }
+    fprintf(out, "\"wall\":%.4f,\"cpu\":%.4f,", row->time.wall, row->time.processor);
+    if (measured->traced.wall > 0.0) {
+        fprintf(out, "\"wallToReference\":%.5f,\"cpuToReference\":%.5f,",
+                row->time.wall / measured->traced.wall, row->time.processor / measured->traced.processor);
+    }
     if (toLayered.wall > 0.0) {
         fprintf(out, "\"wallToLayered\":%.5f,\"cpuToLayered\":%.5f,", toLayered.wall, toLayered.processor);
     }
@@ -211,12 +220,12 @@ static void writeJsonRow(const vtBench* bench, const vtBenchCase* measured, int 
 void vtBench_WriteJson(const vtBench* bench, FILE* out)
 {
     fprintf(out, "{");
-    writeText("version", VT_VERSION, out);
-    writeText("model", bench->model, out);
-    writeText("sweep", vtSweepName(bench->sweep), out);
-    writeText("preset", bench->preset, out);
-    writeText("device", bench->device, out);
-    writeText("gl", bench->version, out);
+    vtWriteJsonText("version", VT_VERSION, out);
+    vtWriteJsonText("model", bench->model, out);
+    vtWriteJsonText("sweep", vtSweepName(bench->sweep), out);
+    vtWriteJsonText("preset", bench->preset, out);
+    vtWriteJsonText("device", bench->device, out);
+    vtWriteJsonText("gl", bench->version, out);
     fprintf(out, "\"threads\":%d,\"processors\":%d,\"ior\":%g,\"maxEvents\":%d,\"cases\":[", bench->threads,
             bench->processors, (double)bench->ior, bench->maxEvents);
     for (int i = 0; i < bench->caseCount; ++i) {
@@ -225,6 +234,10 @@ void vtBench_WriteJson(const vtBench* bench, FILE* out)
                 "%s{\"objects\":%d,\"triangles\":%d,\"width\":%d,\"height\":%d,\"rounds\":%d,\"paths\":%zu,",
                 i > 0 ? "," : "", measured->copies, measured->triangles, measured->width, measured->height,
                 measured->rounds, measured->paths);
+        if (bench->sweep == vt_sweepRelief) {
+            vtWriteJsonText("untraced", measured->untraced, out);
+            fprintf(out, "\"samples\":%d,\"flip\":%.7f,", measured->samples, measured->flip);
+        }
         fprintf(out, "\"eventsAPath\":%.4f,\"upload\":%.3f,\"meshBytes\":%zu,", measured->eventsAPath,
                 measured->upload, measured->meshBytes);
         fprintf(out, "\"reference\":{\"wall\":%.4f,\"cpu\":%.4f,\"build\":%.3f},\"techniques\":[",

@@ -11,6 +11,7 @@
 #include "files.h"
 #include "metrics.h"
 #include "metrics_image.h"
+#include "scene/objects.h"
 #include "session.h"
 #include "sheet.h"
 #include "timing.h"
@@ -29,6 +30,7 @@ typedef struct Rung {
 } Rung;
 
 typedef struct Ladder {
+    int count; ///< of rungs
     vtFrame frames[rungCount];
     Rung rungs[rungCount];
     vtReferenceImage truth;
@@ -36,24 +38,28 @@ typedef struct Ladder {
     double traced;
 } Ladder;
 
-static void nameRungs(const vtFrame* base, Ladder* ladder)
+static void nameRungs(const vtFrame* base, bool hasRelief, Ladder* ladder)
 {
     for (int i = 0; i < rungCount; ++i) {
-        vtFrame* frame = &ladder->frames[i];
+        if (i == vt_techniqueHeightField && !hasRelief) {
+            continue; // it would be exact once more
+        }
+        vtFrame* frame = &ladder->frames[ladder->count];
+        Rung* rung = &ladder->rungs[ladder->count++];
         *frame = *base;
         frame->technique = i >= vt_techniqueCount ? vt_techniqueLayered : (vtTechnique)i;
         frame->search = i == rungCells ? vt_searchCells : vt_searchSteps;
         const int layers = vtResolveFrame(frame).layers;
         frame->layers = i == rungTwiceLayers && 2 * layers <= VT_MAX_LAYERS ? 2 * layers : base->layers;
         const vtTechniqueInfo* info = vtTechnique_Info(frame->technique);
-        ladder->rungs[i].year = info->year;
+        rung->year = info->year;
         if (i == rungCells) {
-            snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s, cells", info->id);
+            snprintf(rung->label, sizeof rung->label, "%s, cells", info->id);
         } else if (frame->technique == vt_techniqueLayered) {
-            snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s, %d layers", info->id,
+            snprintf(rung->label, sizeof rung->label, "%s, %d layers", info->id,
                      vtResolveFrame(frame).layers);
         } else {
-            snprintf(ladder->rungs[i].label, sizeof ladder->rungs[i].label, "%s", info->id);
+            snprintf(rung->label, sizeof rung->label, "%s", info->id);
         }
     }
 }
@@ -97,7 +103,7 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
     if (result == vt_ok) {
         result = vtTracePixels(&ladder->truth, frame, &ladder->truthPixels, error);
     }
-    for (int i = 0; i < rungCount && result == vt_ok; ++i) {
+    for (int i = 0; i < ladder->count && result == vt_ok; ++i) {
         result = climb(session, ladder, i, directions, error);
     }
     if (result == vt_ok) {
@@ -105,13 +111,13 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
     }
     if (result == vt_ok) {
         vtTiming times[rungCount], traced;
-        for (int i = 0; i < rungCount; ++i) {
+        for (int i = 0; i < ladder->count; ++i) {
             ladder->frames[i].samples = 1; // times are those of one sample, as the reference's is
         }
-        const vtTimingDef def = {session->renderer, ladder->frames, rungCount, reference, 0, 0, 0.0};
+        const vtTimingDef def = {session->renderer, ladder->frames, ladder->count, reference, 0, 0, 0.0};
         result = vtTimeFrames(&def, times, &traced, NULL, error);
         ladder->traced = traced.wall;
-        for (int i = 0; i < rungCount && result == vt_ok; ++i) {
+        for (int i = 0; i < ladder->count && result == vt_ok; ++i) {
             ladder->rungs[i].milliseconds = times[i].wall;
         }
     }
@@ -135,7 +141,7 @@ static void printTable(FILE* out, const vtOptions* options, const vtSession* ses
     fprintf(out,
             "| technique | year | within 1° | within 5° | mean error | median | lost | mean FLIP | time | "
             "time / reference |\n|---|---|---|---|---|---|---|---|---|---|\n");
-    for (int i = 0; i < rungCount; ++i) {
+    for (int i = 0; i < ladder->count; ++i) {
         const Rung* r = &ladder->rungs[i];
         fprintf(out, "| %s | %d | %.1f %% | %.1f %% | %.2f° | %.3f° | %.2f %% | %.3f | %.1f ms | %.2f |\n",
                 r->label, r->year, 100.0 * r->directions.within1, 100.0 * r->directions.within5,
@@ -152,12 +158,12 @@ static vtResult drawSheet(const Ladder* ladder, vtSheet* sheet, vtError* error)
     const int factor = (longer + largestTile - 1) / largestTile;
     const int across = frame->width / factor, down = frame->height / factor;
     const int scale = across >= 360 ? 2 : 1, words = 3 * 12 * scale + gap;
-    const int rows = (rungCount + 1 + columns - 1) / columns;
+    const int rows = (ladder->count + 1 + columns - 1) / columns;
     vtResult result =
         vtCreateSheet(columns * (across + gap) + gap, rows * (down + words + gap) + gap, 236, sheet, error);
-    for (int i = 0; i <= rungCount && result == vt_ok; ++i) {
+    for (int i = 0; i <= ladder->count && result == vt_ok; ++i) {
         int x = gap + i % columns * (across + gap), y = gap + i / columns * (down + words + gap);
-        bool isTruth = i == rungCount;
+        bool isTruth = i == ladder->count;
         vtSheet_Paste(sheet, x, y, isTruth ? ladder->truthPixels : ladder->rungs[i].pixels, frame->width,
                       frame->height, factor);
         char lines[3][96] = {"reference, Embree", "", ""};
@@ -224,7 +230,8 @@ vtResult vtRunLadder(const vtOptions* given, vtError* error)
                             : vtFail(error, vt_errorMemory, "ladder: out of memory");
     if (result == vt_ok) {
         frame.fresnel = false; // strict paths, as the reference's; options.fresnel is false here, too
-        nameRungs(&frame, ladder);
+        const vtScene* scene = &session.input.scene;
+        nameRungs(&frame, vtScene_Relief(scene) < scene->meshCount, ladder);
         result = measure(&options, &session, ladder, error);
     }
     if (result == vt_ok && options.output != NULL) {
@@ -233,7 +240,7 @@ vtResult vtRunLadder(const vtOptions* given, vtError* error)
     if (result == vt_ok && (options.table != NULL || options.output == NULL)) {
         result = writeTable(&options, &session, ladder, error);
     }
-    for (int i = 0; ladder != NULL && i < rungCount; ++i) {
+    for (int i = 0; ladder != NULL && i < ladder->count; ++i) {
         free(ladder->rungs[i].pixels);
     }
     if (ladder != NULL) {

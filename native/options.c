@@ -39,7 +39,9 @@ static const Option table[] = {
      RENDER | LADDER},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID", "see 'vitrine list' (exact)", RENDER | VIEW},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID,ID,...",
-     "see 'vitrine list' (" VT_BENCH_TECHNIQUES "; sweeps over objects: exact)", BENCH},
+     "see 'vitrine list' (" VT_BENCH_TECHNIQUES ", of a relief " VT_RELIEF_TECHNIQUE
+     " before them; sweeps over objects: exact)",
+     BENCH},
     {"preset", 0, kindText, AT(preset), 0, 0, "low|medium|high", "settings that are not given (medium)",
      SCENE},
     {"layers", 0, kindInteger, AT(layers), 1, VT_MAX_LAYERS, "N",
@@ -118,9 +120,10 @@ static const Option table[] = {
      LADDER | BENCH | RAYS},
     {"json", 0, kindFlag, AT(json), 0, 0, NULL, "one JSON object on standard output instead of the table",
      BENCH | RAYS},
-    {"sweep", 0, kindText, AT(sweep), 0, 0, "triangles|resolution|objects|depth",
-     "measure again and again: knot or torus of 1,000 to 1,000,000 triangles, pictures of 256 to 2048, or 1 "
-     "to 16 copies side by side or one behind the other",
+    {"sweep", 0, kindText, AT(sweep), 0, 0, "triangles|resolution|relief|objects|depth",
+     "measure again and again: knot or torus of 1,000 to 1,000,000 triangles, pictures of 256 to 2048, a "
+     "built-in relief of five sizes up to --relief-size (4096), or 1 to 16 copies side by side or one behind "
+     "the other",
      BENCH},
     {"plot", 0, kindText, AT(plot), 0, 0, "FILE", "the sweep's times as a picture, SVG", BENCH},
     {"triangles", 0, kindInteger, AT(triangles), 200, 4e6, "N",

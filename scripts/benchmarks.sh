@@ -57,6 +57,19 @@ TEXT
   "$vitrine" bench knot "${common[@]}" --sweep objects --plot "$scratch/bench-objects.svg"
   printf '\n![time over objects, one behind the other](pictures/bench-depth.svg)\n\n'
   "$vitrine" bench knot "${common[@]}" --sweep depth --max-events 64 --plot "$scratch/bench-depth.svg"
+  cat <<'TEXT'
+
+## Reliefs
+
+The pattern `ripples` in ever more samples, by its heights alone (`heightfield`, no triangles are made) and as triangles
+(`exact`); the picture hardly changes. *memory* is that of the heights with their pyramid, or of the mesh, beside the
+GPU; *GPU memory* that of the same, and of the layers; *triangulation* makes the mesh, *upload* sends heights or mesh to
+the GPU, *build* peels the layers. [reliefs.md](reliefs.md) says what follows.
+
+![time over samples](pictures/bench-relief.svg)
+
+TEXT
+  "$vitrine" bench ripples "${common[@]}" --sweep relief --plot "$scratch/bench-relief.svg"
 } >"$scratch/benchmarks.md"
 mv "$scratch"/bench-*.svg docs/pictures/
 mv "$scratch/benchmarks.md" docs/benchmarks.md

@@ -1,28 +1,36 @@
 // Follows the path of each pixel that sees glass, event by event, until it has left all glass for good or ends on
-// something opaque. WITH_HEIGHTS: reliefs are met by their heights, all else by its layers.
+// something opaque. WITH_HEIGHTS: reliefs are met by their heights; WITH_LAYERS: all else by its layers.
 
 // Far more surfaces than paths meet, so that no fault of the data hangs the GPU.
 const int MOST_SURFACES = 256;
 
 bool searchObject(vec3 origin, vec3 direction, int object, bool inside, bool isOther, float farthest, out Meeting meeting)
 {
+#ifndef WITH_LAYERS
+    return searchHeights(origin, direction, object, inside, farthest, meeting);
+#else
 #ifdef WITH_HEIGHTS
     if (isRelief(object)) {
         return searchHeights(origin, direction, object, inside, farthest, meeting);
     }
 #endif
     return searchCube(origin, direction, object, inside, isOther, farthest, u_search.y, meeting);
+#endif
 }
 
 // `from`: where the path came from, `position`: where it has met the object.
 SurfaceHit surfaceOf(int object, uint triangle, vec3 from, vec3 position, vec3 direction)
 {
+#ifndef WITH_LAYERS
+    return heightsSurfaceAt(object, triangle, position);
+#else
 #ifdef WITH_HEIGHTS
     if (isRelief(object)) {
         return heightsSurfaceAt(object, triangle, position);
     }
 #endif
     return surfaceAt(object, triangle, from, direction);
+#endif
 }
 
 void main()

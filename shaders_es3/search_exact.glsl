@@ -18,6 +18,7 @@
 //   the ray meets. A cube of 64 texels a side finds nearly as many hits as one of 512.
 // - One loop follows the whole path; a round of it ends at the next cell with a surface. A pixel that is ready
 //   for its next event does not wait for its neighbours', which software renderers and GPUs would make it do.
+#define WITH_LAYERS
 uniform usampler2DArray u_cubeSurfaces;  // four layers a texel
 uniform usampler2DArray u_cubeTriangles; // of those surfaces
 uniform usampler2DArray u_cubeColumns;   // for each cell a column about it that has a surface

@@ -190,6 +190,15 @@ static bool hasOpaque(const vtRenderer* renderer)
     return renderer->scene.objectCount > renderer->scene.glassCount;
 }
 
+static bool onlyRelief(const vtRenderer* renderer)
+{
+    bool only = true;
+    for (uint32_t i = 0; i < renderer->scene.objectCount; ++i) {
+        only = only && vtSceneBuffer_HasHeights(&renderer->scene, i);
+    }
+    return only;
+}
+
 static vtSurfaceKind chooseSurfaceKind(const vtFrame* frame)
 {
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
@@ -205,7 +214,7 @@ static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int la
     const vtPeelKind kind = choosePeelKind(frame);
     const int sets =
         kind == vt_peelEachObject && renderer->scene.glassCount > 0 ? (int)renderer->scene.glassCount : 1;
-    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer), onlyRelief(renderer));
     vtResult result = vt_ok;
     if (row->surface) {
         result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
@@ -355,7 +364,7 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
 {
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
-    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer), onlyRelief(renderer));
     if (row->surface) {
         vtSurfacePass_Draw(&renderer->surface, gl, &renderer->scene, 0, renderer->scene.glassCount,
                            chooseSurfaceKind(frame), renderer->emptyVertexArray);
@@ -675,6 +684,7 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
                         vtRefractPass_Bytes(&renderer->refract) + vtShadePass_Bytes(&renderer->shade) +
                         vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image),
         .meshBytes = renderer->scene.meshBytes,
+        .heightBytes = vtHeightTexture_Bytes(&renderer->scene.heights),
         .layerWidth = renderer->peel.depths.width,
         .layerHeight = renderer->peel.depths.height,
     };

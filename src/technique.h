@@ -19,9 +19,10 @@ typedef enum vtVariant {
     vt_variantOpaque,  ///< the same where the scene has something opaque, if a technique has one of its own
     vt_variantOrdered, ///< through one object, from where the objects before have left the path
                        ///< (vt_multiOrdered)
-    vt_variantCells,   ///< the same three with vt_searchCells
+    vt_variantCells,   ///< those three with vt_searchCells
     vt_variantCellsOpaque,
     vt_variantCellsOrdered,
+    vt_variantHeights, ///< where there is nothing but a relief that the technique meets by its heights
     vt_variantCount,
 } vtVariant;
 
@@ -43,9 +44,9 @@ typedef struct vtTechniqueRow {
 
 const vtTechniqueRow* vtTechnique_Row(vtTechnique technique);
 
-/// The program for the frame; `opaque`: there is something that is. Ordered, and with the search, that the
-/// frame says where the technique has them.
-vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque);
+/// The program for the frame; `opaque`: there is something that is; `onlyRelief`: nothing but one with
+/// heights. Ordered, and with the search, that the frame says where the technique has them.
+vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque, bool onlyRelief);
 
 static inline bool vtVariant_IsOrdered(vtVariant variant)
 {

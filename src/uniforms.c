@@ -96,7 +96,7 @@ void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, vtEnvironm
                  frame->topLevel},
         .scene = {(int)scene->glassCount, (int)scene->objectCount,
                   frame->fresnel && frame->output == vt_outputPicture,
-                  row->findsOpaque && !vtVariant_IsOrdered(vtFrame_Variant(frame, true))},
+                  row->findsOpaque && !vtVariant_IsOrdered(vtFrame_Variant(frame, true, false))},
         .output = {frame->output, frame->layer, environment, frame->transparentBackground},
     };
     setCamera(uniforms, &frame->view);

@@ -499,6 +499,7 @@ typedef struct vtRendererInfo {
     const char* version;
     size_t textureBytes;         ///< GPU memory of layers, hierarchy, targets and environment
     size_t meshBytes;            ///< GPU memory of the mesh
+    size_t heightBytes;          ///< of textureBytes: a relief's heights, with or without triangles
     int layerWidth, layerHeight; ///< of the last frame, texels
 } vtRendererInfo;
 

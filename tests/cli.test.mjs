@@ -667,6 +667,35 @@ describe('measuring', () => {
     assert.ok(!/nan|inf/.test(svg), 'every point has a place');
   });
 
+  test('bench: a relief by its heights and as triangles', () => {
+    const args = ['bench', 'ripples', '--rounds', '1', '--resolution', '48,48', '--relief-size', '64'];
+    const result = vitrine([...args, '--sweep', 'relief', '--json', '--table', 'relief.md', '--plot', 'relief.svg']);
+    assert.equal(result.code, 0, result.error);
+    const { cases } = JSON.parse(result.text);
+    assert.deepEqual(cases.map(({ samples }) => samples), [4, 8, 16, 32, 64]);
+    for (const { techniques: [heights, exact], flip, triangles, samples } of cases) {
+      assert.deepEqual([heights.id, exact.id, heights.absent], ['heightfield', 'exact', '']);
+      assert.ok(triangles > 2 * (samples - 1) ** 2 && heights.triangulation === 0 && heights.build === 0);
+      assert.ok(heights.hostBytes < exact.hostBytes && heights.glassBytes < exact.glassBytes && exact.build > 0);
+      assert.ok(flip < 0.01 && heights.agreement.within1 > 0.98 && exact.lost < 0.01, JSON.stringify(heights));
+    }
+    const [, rows, , agreement] = readFileSync(join(folder, 'relief.md'), 'utf8').split('\n\n');
+    assert.match(rows, /\n\| 64 x 64 \| heightfield \|/);
+    assert.equal(new Set(rows.split('\n').map((line) => line.split('|').length)).size, 1);
+    assert.match(agreement, /\n\| 64 x 64 \| \d+ \|/);
+    assert.equal(readFileSync(join(folder, 'relief.svg'), 'utf8').match(/<polyline/g).length, 3);
+
+    const first = vitrine([...args, '--json']);
+    assert.deepEqual(JSON.parse(first.text).cases[0].techniques.map(({ id }) => id),
+      ['heightfield', 'exact', 'layered', 'bvh', 'single']);
+  });
+
+  test('the ladder has a rung of heights for reliefs', () => {
+    const table = vitrine(['ladder', 'fluted', '--relief-size', '24', '--resolution', '48,48']).text;
+    assert.match(table, /\n\| heightfield \| 2008 \| (100|99)\.\d % \|/);
+    assert.doesNotMatch(vitrine(['ladder', 'cube', '--resolution', '24,24']).text, /heightfield/);
+  });
+
   test('bench refuses what it cannot measure', () => {
     const fails = (args, parts) => {
       const result = vitrine(['bench', ...args, '--resolution', '16,16']);
@@ -680,6 +709,10 @@ describe('measuring', () => {
     fails(['knot', '-t', ','], ['names none']);
     fails(['knot', '--sweep', 'time'], ["'time'", 'triangles or resolution']);
     fails(['goblet', '--sweep', 'triangles'], ["'goblet'", 'knot or torus']);
+    fails(['knot', '--sweep', 'relief'], ["'knot' is none", 'built-in relief']);
+    fails(['ripples', '--sweep', 'relief', '--object', 'cube'], ['leave --object out']);
+    fails(['ripples', '--sweep', 'relief', '-t', 'bvh'], ['heightfield and exact', 'leave --technique out']);
+    fails(['ripples', '--sweep', 'relief', '--relief-size', '16'], ['--relief-size is 16', 'at least 32']);
     fails(['goblet', '--triangles', '5000'], ["'goblet'", 'the knot and the torus can']);
     fails(['knot', '--plot', 'x.svg'], ['add --sweep']);
     fails(['knot', '--rounds', '0'], ['--rounds is 0', 'from 1 to 99']);

@@ -24,7 +24,7 @@ vtResult vtRefractPass_Prepare(vtRefractPass* pass, const vtGL* gl, vtTechnique 
     const vtProgramDef* def = &vtTechnique_Row(technique)->refract[variant];
     GLuint* program = &pass->programs[technique][variant];
     GLuint* counter = &pass->counters[technique][variant];
-    GLuint* branch = &pass->branchPrograms[technique];
+    GLuint* branch = &pass->branchPrograms[technique][variant];
     vtResult result = vtSucceed(error);
     if (countReads && *counter == 0) {
         result = createWith(gl, def, &vtChunk_count_reads, counter, error);
@@ -90,7 +90,7 @@ void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique t
     const vtPathTargets* targets = &pass->targets[set];
     vtBindFramebuffer(gl, (onlyGlass ? pass->glassFramebuffers : pass->framebuffers)[set],
                       targets->paths.width, targets->paths.height);
-    gl->UseProgram(before != NULL       ? pass->branchPrograms[technique]
+    gl->UseProgram(before != NULL       ? pass->branchPrograms[technique][variant]
                    : inputs->countReads ? pass->counters[technique][variant]
                                         : pass->programs[technique][variant]);
     bindInputs(gl, inputs);
@@ -151,8 +151,8 @@ void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl)
         for (int variant = 0; variant < vt_variantCount; ++variant) {
             gl->DeleteProgram(pass->programs[i][variant]);
             gl->DeleteProgram(pass->counters[i][variant]);
+            gl->DeleteProgram(pass->branchPrograms[i][variant]);
         }
-        gl->DeleteProgram(pass->branchPrograms[i]);
     }
     vtDestroyFramebuffers(gl, pass->framebuffers, VT_PATH_SETS);
     vtDestroyFramebuffers(gl, pass->glassFramebuffers, VT_PATH_SETS);

@@ -20,7 +20,8 @@ typedef struct vtPathTargets {
 typedef struct vtRefractPass {
     GLuint programs[vt_techniqueCount][vt_variantCount]; ///< compiled when first used
     GLuint counters[vt_techniqueCount][vt_variantCount]; ///< the same, counting texture reads
-    GLuint branchPrograms[vt_techniqueCount]; ///< the same, from where light left the paths of a set before
+    GLuint branchPrograms[vt_techniqueCount]
+                         [vt_variantCount]; ///< the same, from where light left the paths of a set before
     GLuint framebuffers[VT_PATH_SETS];
     GLuint glassFramebuffers[VT_PATH_SETS]; ///< with the surface pass's depth: only pixels that see glass are
                                             ///< drawn
