@@ -1,12 +1,15 @@
 // This work is based on:
 //   Tomas Moller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
 // Halved at the middle triangle along the longest axis: no surface area heuristic, since few rays are traced.
+// A relief's pyramid of heights is such a hierarchy already, over triangles that need not be there.
 #include "scene/bvh.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/math.h"
+#include "scene/height_field.h"
 
 enum { leafSize = 4, stackSize = 64 };
 
@@ -93,49 +96,127 @@ static uint32_t build(vtBvh* tree, uint32_t first, uint32_t count)
     return index;
 }
 
-static bool meetsBox(const Node* node, vtVec3 origin, vtVec3 inverse, float nearest)
+typedef struct Ray {
+    vtVec3 origin, direction, inverse;
+    float start;
+    bool leaving;
+} Ray;
+
+static bool meetsBox(vtVec3 low, vtVec3 high, const Ray* ray, float nearest)
 {
-    float x0 = (node->low.x - origin.x) * inverse.x, x1 = (node->high.x - origin.x) * inverse.x;
-    float y0 = (node->low.y - origin.y) * inverse.y, y1 = (node->high.y - origin.y) * inverse.y;
-    float z0 = (node->low.z - origin.z) * inverse.z, z1 = (node->high.z - origin.z) * inverse.z;
+    const vtVec3 origin = ray->origin, inverse = ray->inverse;
+    float x0 = (low.x - origin.x) * inverse.x, x1 = (high.x - origin.x) * inverse.x;
+    float y0 = (low.y - origin.y) * inverse.y, y1 = (high.y - origin.y) * inverse.y;
+    float z0 = (low.z - origin.z) * inverse.z, z1 = (high.z - origin.z) * inverse.z;
     float enter = fmaxf(fmaxf(fminf(x0, x1), fminf(y0, y1)), fmaxf(fminf(z0, z1), 0.0f));
     float leave = fminf(fminf(fmaxf(x0, x1), fmaxf(y0, y1)), fminf(fmaxf(z0, z1), nearest));
     return enter <= leave * 1.000001f;
 }
 
-/// True where the ray meets the triangle from the wanted side, nearer than *hit and beyond `start`.
-static bool meetsTriangle(const vtMesh* mesh, uint32_t triangle, vtVec3 origin, vtVec3 direction, float start,
-                          bool leaving, vtBvhHit* hit)
+/// True where the ray meets the triangle from the wanted side, nearer than *hit and beyond its start.
+static bool meetsTriangle(vtVec3 a, vtVec3 b, vtVec3 c, uint32_t triangle, const Ray* ray, vtBvhHit* hit)
 {
-    vtVec3 a = corner(mesh, triangle, 0);
-    vtVec3 e1 = vtSub(corner(mesh, triangle, 1), a), e2 = vtSub(corner(mesh, triangle, 2), a);
-    float facing = vtDot(vtCross(e1, e2), direction);
-    if (leaving ? facing <= 0.0f : facing >= 0.0f) {
+    vtVec3 e1 = vtSub(b, a), e2 = vtSub(c, a);
+    float facing = vtDot(vtCross(e1, e2), ray->direction);
+    if (ray->leaving ? facing <= 0.0f : facing >= 0.0f) {
         return false;
     }
-    vtVec3 p = vtCross(direction, e2), s = vtSub(origin, a), q = vtCross(s, e1);
+    vtVec3 p = vtCross(ray->direction, e2), s = vtSub(ray->origin, a), q = vtCross(s, e1);
     float determinant = vtDot(e1, p);
-    float u = vtDot(s, p) / determinant, v = vtDot(direction, q) / determinant,
+    float u = vtDot(s, p) / determinant, v = vtDot(ray->direction, q) / determinant,
           t = vtDot(e2, q) / determinant;
     bool inside = u >= -1e-5f && v >= -1e-5f && u + v <= 1.00001f;
-    if (!inside || !(t > start) || t >= hit->distance) {
+    if (!inside || !(t > ray->start) || t >= hit->distance) {
         return false;
     }
     *hit = (vtBvhHit){t, triangle, u, v};
     return true;
 }
 
+static bool meetsRelief(const vtHeightField* field, uint32_t number, const Ray* ray, vtBvhHit* hit)
+{
+    const vtReliefTriangle triangle = vtHeightField_Triangle(field, number);
+    return meetsTriangle(triangle.corners[0], triangle.corners[1], triangle.corners[2], number, ray, hit);
+}
+
+static bool traceTile(const vtHeightField* field, int level, int column, int row, const Ray* ray,
+                      vtBvhHit* hit)
+{
+    const int cells = 1 << level, columns = field->width - 1, rows = field->height - 1;
+    const int left = column * cells, bottom = row * cells;
+    if (left >= columns || bottom >= rows) {
+        return false;
+    }
+    if (level == 0) {
+        const uint32_t number = 2 * ((uint32_t)row * (uint32_t)columns + (uint32_t)column);
+        const bool below = meetsRelief(field, number, ray, hit);
+        return meetsRelief(field, number + 1, ray, hit) || below;
+    }
+    const vtHeightRange range = vtHeightField_Tile(field, level, column, row);
+    const vtVec3 low = {field->left + (float)left * field->cell, field->bottom + (float)bottom * field->cell,
+                        range.low};
+    const vtVec3 high = {low.x + (float)cells * field->cell, low.y + (float)cells * field->cell, range.high};
+    bool found = false;
+    for (int i = 0; i < 4 && (i > 0 || meetsBox(low, high, ray, hit->distance)); ++i) {
+        found |= traceTile(field, level - 1, 2 * column + (i & 1), 2 * row + (i >> 1), ray, hit);
+    }
+    return found;
+}
+
+/// The wall at the side's `place`-th segment and those beside it, should rounding have taken the wrong one.
+static bool traceWall(const vtHeightField* field, int side, float place, const Ray* ray, vtBvhHit* hit)
+{
+    const int across = field->width - 1, up = field->height - 1, length = side % 2 == 0 ? across : up;
+    const int first[4] = {0, across, across + up, 2 * across + up};
+    bool found = false;
+    for (int i = -1; i <= 1 && place > -2.0f && place < (float)length + 2.0f; ++i) {
+        const int segment = (int)floorf(place) + i;
+        if (segment >= 0 && segment < length) {
+            // Counter-clockwise: two of the sides run backwards.
+            const int number = first[side] + (side < 2 ? segment : length - 1 - segment);
+            const uint32_t triangle = vtHeightField_FirstWall(field) + 2 * (uint32_t)number;
+            found |= meetsRelief(field, triangle, ray, hit);
+            found |= meetsRelief(field, triangle + 1, ray, hit);
+        }
+    }
+    return found;
+}
+
+static bool traceRelief(const vtMesh* mesh, const Ray* ray, vtBvhHit* hit)
+{
+    const vtHeightField* field = mesh->heights;
+    bool found = traceTile(field, field->levelCount, 0, 0, ray, hit);
+    for (int side = 0; side < 4; ++side) {
+        const vtVec3 corner = side == 1 || side == 2 ? mesh->boundsMax : mesh->boundsMin;
+        const bool isAlongX = side % 2 == 0;
+        const float t = isAlongX ? (corner.y - ray->origin.y) * ray->inverse.y
+                                 : (corner.x - ray->origin.x) * ray->inverse.x;
+        const float place = isAlongX ? ray->origin.x + t * ray->direction.x - field->left
+                                     : ray->origin.y + t * ray->direction.y - field->bottom;
+        found |= traceWall(field, side, place / field->cell, ray, hit);
+    }
+    for (uint32_t i = 0; i < 2; ++i) {
+        found |= meetsRelief(field, vtHeightField_FirstBack(field) + i, ray, hit);
+    }
+    return found;
+}
+
 bool vtBvh_Trace(const vtBvh* bvh, vtVec3 origin, vtVec3 direction, float start, bool leaving, vtBvhHit* hit)
 {
-    vtVec3 inverse = {1.0f / direction.x, 1.0f / direction.y, 1.0f / direction.z};
+    const Ray ray = {
+        origin, direction, {1.0f / direction.x, 1.0f / direction.y, 1.0f / direction.z}, start, leaving};
+    const vtMesh* mesh = bvh->mesh;
+    hit->distance = FLT_MAX;
+    if (mesh->heights != NULL) {
+        return traceRelief(mesh, &ray, hit);
+    }
     uint32_t stack[stackSize], depth = 0; // halving keeps the depth below 32
     bool found = false;
-    hit->distance = FLT_MAX;
     stack[depth++] = 0;
     while (depth > 0) {
         uint32_t index = stack[--depth];
         const Node* node = &bvh->nodes[index];
-        if (!meetsBox(node, origin, inverse, hit->distance)) {
+        if (!meetsBox(node->low, node->high, &ray, hit->distance)) {
             continue;
         }
         if (node->count == 0) {
@@ -143,8 +224,9 @@ bool vtBvh_Trace(const vtBvh* bvh, vtVec3 origin, vtVec3 direction, float start,
             stack[depth++] = index + 1;
         }
         for (uint32_t i = 0; i < node->count; ++i) {
-            found |= meetsTriangle(bvh->mesh, bvh->triangles[node->first + i], origin, direction, start,
-                                   leaving, hit);
+            const uint32_t triangle = bvh->triangles[node->first + i];
+            found |= meetsTriangle(corner(mesh, triangle, 0), corner(mesh, triangle, 1),
+                                   corner(mesh, triangle, 2), triangle, &ray, hit);
         }
     }
     return found;
@@ -168,6 +250,9 @@ vtBvh* vtCreateBvh(const vtMesh* mesh)
         return NULL;
     }
     bvh->mesh = mesh;
+    if (mesh->heights != NULL) {
+        return bvh;
+    }
     bvh->nodes = malloc(2 * (size_t)count * sizeof *bvh->nodes);
     bvh->triangles = malloc(count * sizeof *bvh->triangles);
     bvh->centres = malloc(count * sizeof *bvh->centres);

@@ -12,7 +12,8 @@ typedef struct vtBvhHit {
     float u, v; ///< barycentric weights of the triangle's second and third corner
 } vtBvhHit;
 
-/// Keeps a pointer to the mesh, which must outlive it. NULL where memory is out.
+/// Keeps a pointer to the mesh, which must outlive it. A relief is met by its heights; the triangles' numbers
+/// are then those of height_field.h. NULL where memory is out.
 vtBvh* vtCreateBvh(const vtMesh* mesh);
 void vtDestroyBvh(vtBvh* bvh);
 

@@ -9,6 +9,7 @@
 #include "base/optics.h"
 #include "scene/bvh.h"
 #include "scene/camera.h"
+#include "scene/height_field.h"
 #include "scene/media.h"
 #include "scene/objects.h"
 
@@ -37,21 +38,25 @@ static float degreesBetween(vtVec3 a, vtVec3 b)
     return atan2f(vtLength(vtCross(a, b)), vtDot(a, b)) * 180.0f / VT_PI;
 }
 
-static vtVec3 interpolate(const vtMesh* mesh, const float* values, const vtBvhHit* hit)
+/// Corners and normals of what was met.
+static vtReliefTriangle readTriangle(const vtMesh* mesh, uint32_t number)
 {
-    const uint32_t* corners = mesh->indices + 3 * (size_t)hit->triangle;
-    vtVec3 sum = vtScale(vtMakeVec3(values + 3 * (size_t)corners[0]), 1.0f - hit->u - hit->v);
-    sum = vtMulAdd(sum, hit->u, vtMakeVec3(values + 3 * (size_t)corners[1]));
-    return vtMulAdd(sum, hit->v, vtMakeVec3(values + 3 * (size_t)corners[2]));
+    if (mesh->heights != NULL) {
+        return vtHeightField_Triangle(mesh->heights, number);
+    }
+    vtReliefTriangle triangle;
+    for (int i = 0; i < 3; ++i) {
+        const size_t vertex = mesh->indices[3 * (size_t)number + (size_t)i];
+        triangle.corners[i] = vtMakeVec3(mesh->positions + 3 * vertex);
+        triangle.normals[i] = vtMakeVec3(mesh->normals + 3 * vertex);
+    }
+    return triangle;
 }
 
-static vtVec3 flatNormal(const vtMesh* mesh, uint32_t triangle)
+static vtVec3 interpolate(const vtVec3* values, const vtBvhHit* hit)
 {
-    const uint32_t* corners = mesh->indices + 3 * (size_t)triangle;
-    vtVec3 a = vtMakeVec3(mesh->positions + 3 * (size_t)corners[0]);
-    vtVec3 b = vtMakeVec3(mesh->positions + 3 * (size_t)corners[1]);
-    vtVec3 c = vtMakeVec3(mesh->positions + 3 * (size_t)corners[2]);
-    return vtCross(vtSub(b, a), vtSub(c, a));
+    const vtVec3 sum = vtMulAdd(vtScale(values[0], 1.0f - hit->u - hit->v), hit->u, values[1]);
+    return vtMulAdd(sum, hit->v, values[2]);
 }
 
 static vtVec3 toWorld(const vtPlacedObject* placed, vtVec3 normal)
@@ -152,8 +157,11 @@ static bool cross(const Tracer* tracer, const Meeting* meeting, int maxEvents, v
                   vtMedia* media, vtVec3* direction, vtPath* path)
 {
     const vtPlacedObject* placed = &tracer->placed[meeting->object];
-    const vtVec3 G = toWorld(placed, flatNormal(placed->mesh, meeting->hit.triangle));
-    const vtVec3 N = toWorld(placed, interpolate(placed->mesh, placed->mesh->normals, &meeting->hit));
+    const vtReliefTriangle triangle = readTriangle(placed->mesh, meeting->hit.triangle);
+    const vtVec3* corners = triangle.corners;
+    const vtVec3 flat = vtCross(vtSub(corners[1], corners[0]), vtSub(corners[2], corners[0]));
+    const vtVec3 G = toWorld(placed, flat);
+    const vtVec3 N = toWorld(placed, interpolate(triangle.normals, &meeting->hit));
     const vtVec3 I = *direction;
     // The surface says on which side of it the path is.
     const bool leaving = vtDot(G, I) > 0.0f;
@@ -192,8 +200,8 @@ static void follow(const Tracer* tracer, int maxEvents, vtVec3 origin, vtVec3 di
     bool isLost = false;
     for (int pass = 0; !isLost && findNearest(tracer, &media, origin, direction, start, &meeting); ++pass) {
         const vtPlacedObject* placed = &tracer->placed[meeting.object];
-        origin = vtTransformPoint(&placed->toWorld,
-                                  interpolate(placed->mesh, placed->mesh->positions, &meeting.hit));
+        const vtReliefTriangle triangle = readTriangle(placed->mesh, meeting.hit.triangle);
+        origin = vtTransformPoint(&placed->toWorld, interpolate(triangle.corners, &meeting.hit));
         bool isOpaque = meeting.object >= tracer->glassCount;
         if (!isOpaque) {
             const int events = path->eventCount;

@@ -56,6 +56,37 @@ vtResult vtLoadReliefOfBits(const void* bytes, size_t size, const char* name, co
     return result;
 }
 
+vtResult vtCreateReliefOfPixels(const uint8_t* pixels, int width, int height, const char* name,
+                                const vtReliefDef* def, vtMesh* mesh, vtError* error)
+{
+    assert(def != NULL && mesh != NULL);
+    *mesh = (vtMesh){0};
+    name = name != NULL ? name : "unnamed";
+    vtResult result = vtCheckHeightSides(name, width, height, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    const size_t count = (size_t)width * (size_t)height;
+    float* heights = malloc(count * sizeof *heights);
+    if (heights == NULL) {
+        return vtFail(error, vt_errorMemory,
+                      "relief '%.300s': out of memory for %d x %d samples; scale it down", name, width,
+                      height);
+    }
+    for (size_t i = 0; i < count; ++i, pixels += 4) {
+        // The luma of stb_image, so that the same file has the same heights everywhere.
+        heights[i] = (float)((77 * pixels[0] + 150 * pixels[1] + 29 * pixels[2]) >> 8) / 255.0f;
+    }
+    vtReliefDef own = *def;
+    own.heights = heights;
+    own.width = width;
+    own.height = height;
+    own.smoothing = def->smoothing != -1.0f ? def->smoothing : smoothingOf8Bits;
+    result = vtCreateRelief(&own, name, mesh, error);
+    free(heights);
+    return result;
+}
+
 vtResult vtLoadRelief(const void* bytes, size_t size, const char* name, const vtReliefDef* def, vtMesh* mesh,
                       vtError* error)
 {

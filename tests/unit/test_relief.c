@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/image.h"
 #include "base/math.h"
 #include "scene/height_field.h"
+#include "scene/relief.h"
 #include "testing.h"
 
 /// A relief of hills that no symmetry makes easy.
@@ -170,6 +172,31 @@ static void testSmoothingKeepsTheMean(void** state)
     vtDestroyMesh(&mesh);
 }
 
+// Decoded pixels are the file's own heights.
+static void testPixelsAreTheFile(void** state)
+{
+    (void)state;
+    enum { width = 9, height = 6 };
+    uint8_t pixels[4 * width * height], *bytes;
+    for (int i = 0; i < 4 * width * height; ++i) {
+        pixels[i] = (uint8_t)(i * i * 31 + 7 * i);
+    }
+    size_t size;
+    vtMesh read, made;
+    vtError error;
+    assert_int_equal(vtEncodePng(pixels, 4, width, height, &bytes, &size, &error), vt_ok);
+    const vtReliefDef def = vtDefaultRelief();
+    assert_int_equal(vtLoadRelief(bytes, size, "noise", &def, &read, &error), vt_ok);
+    assert_int_equal(vtCreateReliefOfPixels(pixels, width, height, "noise", &def, &made, &error), vt_ok);
+    assert_memory_equal(read.heights->z, made.heights->z, width * height * sizeof(float));
+    free(bytes);
+    vtDestroyMesh(&read);
+    vtDestroyMesh(&made);
+    assert_int_equal(vtCreateReliefOfPixels(pixels, 1, 1, "dot.png", &def, &made, &error), vt_errorFormat);
+    assert_non_null(strstr(error.message, "dot.png' is 1 x 1 samples"));
+    assert_int_equal(vtCreateReliefOfPixels(NULL, 5000, 9, "wide.png", &def, &made, &error), vt_errorFormat);
+}
+
 static void expectFailure(const vtReliefDef* def, const char* words)
 {
     vtMesh mesh;
@@ -210,6 +237,7 @@ int main(void)
         cmocka_unit_test(testTrianglesAreClosed),    cmocka_unit_test(testTrianglesHaveTheirNumbers),
         cmocka_unit_test(testRangesHoldTheirCells),  cmocka_unit_test(testContainsWhatIsBelow),
         cmocka_unit_test(testSmoothingKeepsTheMean), cmocka_unit_test(testBadReliefs),
+        cmocka_unit_test(testPixelsAreTheFile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
