@@ -25,6 +25,12 @@ void vtViewer_Destroy(vtViewer* viewer);
 /// to do, -1: failed, see vtViewer_Error.
 int vtViewer_Tick(vtViewer* viewer);
 
+/// Gives the scene what a technique needs; where that cannot be had, all stays on the GPU as it was.
+vtResult vtViewer_PrepareScene(vtViewer* viewer, vtTechnique technique);
+
+/// `heightfield` for a scene with a relief, else `exact`.
+vtTechnique vtViewer_UsualTechnique(const vtViewer* viewer);
+
 /// Of the scene's glass.
 typedef struct vtSceneFacts {
     uint32_t triangles, openEdges, glassCount;

@@ -117,11 +117,11 @@ export class Viewer {
   }
 
   /**
-   * Settings of the glass (vtViewer_SetGlass); layers, steps and maxEvents null: as the preset says; ior null: each object's own.
+   * Settings of the glass (vtViewer_SetGlass); layers, steps and maxEvents null: as the preset says; ior null: each object's own; technique null: as the scene has it.
    * @returns {string} a sentence, or ''
    */
   setGlass({ technique, ior, preset, layers, steps, maxEvents, output, layer, exposure, transparent, samples, lessened, fresnel }) {
-    return this.attempt('SetGlass', technique, ior ?? 0, presets.indexOf(preset), layers ?? 0, steps ?? 0, maxEvents ?? 0, outputs.indexOf(output),
+    return this.attempt('SetGlass', technique ?? '', ior ?? 0, presets.indexOf(preset), layers ?? 0, steps ?? 0, maxEvents ?? 0, outputs.indexOf(output),
       layer, exposure, Number(transparent), samples, Number(lessened), Number(fresnel !== 'off'));
   }
 
@@ -139,7 +139,7 @@ export class Viewer {
     this.call('Begin');
     for (const part of parts) {
       const first = this.call('ImageCount');
-      const problem = part.contents === null ? this.attempt('AddShape', part.name, part.spec) : this.attemptFile('AddModel', part);
+      const problem = part.contents === null ? this.attempt('AddShape', part.name, part.spec) : this.attemptFile(part.kind === 'relief' ? 'AddRelief' : 'AddModel', part);
       if (problem) return problem;
       for (let index = first; index < this.call('ImageCount'); ++index) {
         const place = this.call('ImageBytes', index);
