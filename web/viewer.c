@@ -36,6 +36,7 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Destroy(vtViewer* viewer)
         vtDestroyRenderer(viewer->renderer);
         vtDestroyScene(&viewer->scene);
         vtDestroyScene(&viewer->next);
+        vtDestroyMesh(&viewer->kept.unit);
         free(viewer->image);
         free(viewer);
     }

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/image.h"
-#include "scene/object_spec.h"
 #include "scene/objects.h"
 #include "scene/relief.h"
 #include "viewer.h"
@@ -23,8 +22,7 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Begin(vtViewer* viewer)
     vtDestroyScene(&viewer->next);
 }
 
-/// An object's line of text (scene/object_spec.h) about something of that kind; empty: as it is.
-static vtResult readSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec)
+vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec)
 {
     *spec = (vtObjectSpec){0};
     const vtResult result =
@@ -42,12 +40,11 @@ static vtResult add(vtViewer* viewer, vtScene* made, const vtObjectSpec* spec)
     return result;
 }
 
-/// The same of a mesh.
-static vtResult addMesh(vtViewer* viewer, vtMesh* mesh, const char* name, const vtObjectSpec* spec)
+vtResult vtViewer_AddMesh(vtViewer* viewer, vtMesh* mesh, const char* name, const vtObjectSpec* spec)
 {
     vtScene made = {0};
     vtMaterial material = vtDefaultMaterial();
-    material.opaque = strcmp(name, "plane") == 0; // it has no volume
+    material.opaque = mesh->heights == NULL && strcmp(name, "plane") == 0; // it has no volume
     vtResult result = vtCreateMeshScene(mesh, &material, &made, &viewer->error);
     vtDestroyMesh(mesh);
     if (result == vt_ok) {
@@ -57,71 +54,34 @@ static vtResult addMesh(vtViewer* viewer, vtMesh* mesh, const char* name, const 
     return result;
 }
 
-static vtReliefDef makeReliefDef(const vtObjectSpec* spec, int pattern)
-{
-    vtReliefDef def = vtDefaultRelief();
-    def.depth = pattern >= 0 ? vtReliefPatternDepth(pattern) : def.depth;
-    vtObjectSpec_ApplyToRelief(spec, &def);
-    return def;
-}
-
 /// Adds a built-in shape or relief by name.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddShape(vtViewer* viewer, const char* name, const char* text)
 {
     vtMesh mesh;
     vtObjectSpec spec;
     const int pattern = vtFindReliefPattern(name);
-    vtResult result = readSpec(viewer, text, pattern >= 0 ? vt_kindReliefPattern : vt_kindMesh, &spec);
+    vtResult result =
+        vtViewer_ReadSpec(viewer, text, pattern >= 0 ? vt_kindReliefPattern : vt_kindMesh, &spec);
     if (result == vt_ok && pattern >= 0) {
-        const vtReliefDef def = makeReliefDef(&spec, pattern);
-        result = vtCreateReliefPattern(name, &def, &mesh, &viewer->error);
-    } else if (result == vt_ok) {
+        return sentence(viewer, vtViewer_AddPattern(viewer, pattern, &spec));
+    }
+    if (result == vt_ok) {
         result = vtCreateShape(name, &mesh, &viewer->error);
     }
-    return sentence(viewer, result == vt_ok ? addMesh(viewer, &mesh, name, &spec) : result);
+    return sentence(viewer, result == vt_ok ? vtViewer_AddMesh(viewer, &mesh, name, &spec) : result);
 }
 
-/// Adds heights: the contents of a .hdr or .pfm.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddRelief(vtViewer* viewer, uint8_t* bytes, size_t size,
-                                                    const char* name, const char* text)
-{
-    vtMesh mesh;
-    vtObjectSpec spec;
-    vtResult result = readSpec(viewer, text, vt_kindReliefFile, &spec);
-    if (result == vt_ok) {
-        const vtReliefDef def = makeReliefDef(&spec, -1);
-        result = vtLoadRelief(bytes, size, name, &def, &mesh, &viewer->error);
-    }
-    free(bytes);
-    return sentence(viewer, result == vt_ok ? addMesh(viewer, &mesh, name, &spec) : result);
-}
-
-/// Adds heights: a picture that the browser has decoded, RGBA, top row first; NULL where it is too large.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddPicture(vtViewer* viewer, uint8_t* pixels, int width, int height,
-                                                     const char* name, const char* text)
-{
-    vtMesh mesh;
-    vtObjectSpec spec;
-    vtResult result = readSpec(viewer, text, vt_kindReliefFile, &spec);
-    if (result == vt_ok) {
-        const vtReliefDef def = makeReliefDef(&spec, -1);
-        result = vtCreateReliefOfPixels(pixels, width, height, name, &def, &mesh, &viewer->error);
-    }
-    free(pixels);
-    return sentence(viewer, result == vt_ok ? addMesh(viewer, &mesh, name, &spec) : result);
-}
-
-/// Adds the contents of a .glb or self-contained .gltf, or a picture of heights.
+/// Adds the contents of a .glb or self-contained .gltf, or heights.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* bytes, size_t size,
-                                                   const char* name, const char* text)
+                                                   const char* name, const char* text, int source)
 {
     if (vtIsPicture(bytes, size)) {
-        return vtViewer_AddRelief(viewer, bytes, size, name, text);
+        return vtViewer_AddRelief(viewer, bytes, size, name, text, source);
     }
     vtScene made;
     vtObjectSpec spec;
     const vtModelDef def = {.bytes = bytes, .size = size, .name = name};
-    vtResult result = readSpec(viewer, text, vt_kindMesh, &spec);
+    vtResult result = vtViewer_ReadSpec(viewer, text, vt_kindMesh, &spec);
     result = result == vt_ok ? vtLoadScene(&def, &made, &viewer->error) : result;
     free(bytes);
     return sentence(viewer, result == vt_ok ? add(viewer, &made, &spec) : result);
@@ -230,7 +190,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenModel(vtViewer* viewer, uint8_t* b
                                                     const char* name)
 {
     vtViewer_Begin(viewer);
-    const char* problem = vtViewer_AddModel(viewer, bytes, size, name, "");
+    const char* problem = vtViewer_AddModel(viewer, bytes, size, name, "", 0);
     return problem != NULL ? problem : vtViewer_Show(viewer);
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "scene/height_field.h"
 
 /// Steps of 1/256 of the depth, spread over five samples and more, no longer show in a refraction.
 static const float smoothingOf8Bits = 2.0f;
@@ -85,6 +86,42 @@ vtResult vtCreateReliefOfPixels(const uint8_t* pixels, int width, int height, co
     result = vtCreateRelief(&own, name, mesh, error);
     free(heights);
     return result;
+}
+
+vtResult vtCreateReliefOfDepth(const vtMesh* unit, float depth, float thickness, const char* name,
+                               vtMesh* mesh, vtError* error)
+{
+    const vtHeightField* from = unit->heights;
+    const size_t count = (size_t)from->width * (size_t)from->height;
+    const size_t rangeCount = from->starts[from->levelCount + 1];
+    *mesh = *unit;
+    vtHeightField* field = mesh->heights = malloc(sizeof *field);
+    if (field != NULL) {
+        *field = *from;
+        field->z = malloc(count * sizeof *field->z);
+        field->ranges = malloc(rangeCount * sizeof *field->ranges);
+    }
+    if (field == NULL || field->z == NULL || field->ranges == NULL) {
+        vtDestroyHeightField(field);
+        *mesh = (vtMesh){0};
+        return vtFail(error, vt_errorMemory,
+                      "relief '%.300s': out of memory for %d x %d samples; scale it down", name, from->width,
+                      from->height);
+    }
+    for (size_t i = 0; i < count; ++i) {
+        field->z[i] = depth * from->z[i];
+    }
+    for (size_t i = 0; i < rangeCount; ++i) {
+        const vtHeightRange range = from->ranges[i];
+        const bool hasCells = range.low <= range.high; // else infinite
+        field->ranges[i] = hasCells ? (vtHeightRange){depth * range.low, depth * range.high} : range;
+    }
+    field->low = depth * from->low;
+    field->high = depth * from->high;
+    field->back = fminf(field->low, 0.0f) - thickness;
+    mesh->boundsMin.z = field->back;
+    mesh->boundsMax.z = field->high;
+    return vtSucceed(error);
 }
 
 vtResult vtLoadRelief(const void* bytes, size_t size, const char* name, const vtReliefDef* def, vtMesh* mesh,

@@ -11,5 +11,9 @@ vtResult vtLoadReliefOfBits(const void* bytes, size_t size, const char* name, co
 vtResult vtCreateReliefOfPixels(const uint8_t* pixels, int width, int height, const char* name,
                                 const vtReliefDef* def, vtMesh* mesh, vtError* error);
 
+/// The relief `unit`, whose depth is 1, with another depth and slab: sooner than from its heights.
+vtResult vtCreateReliefOfDepth(const vtMesh* unit, float depth, float thickness, const char* name,
+                               vtMesh* mesh, vtError* error);
+
 /// A number of the table of patterns, -1: there is none of that name.
 int vtFindReliefPattern(const char* name);
