@@ -55,8 +55,8 @@ const cssProperties = [
 ];
 
 function typeOf(row) {
-  if (row.type === 'enum') return row.values.map((value) => `'${value}'`).join(' | ');
-  return row.type + (row.default === null ? ' | null' : '');
+  const type = row.type === 'enum' ? row.values.map((value) => `'${value}'`).join(' | ') : row.type;
+  return type + (row.default === null ? ' | null' : '');
 }
 
 function defaultOf(row) {

@@ -197,6 +197,72 @@ describe('the demo page', { skip }, () => {
     await page.mouse.click(190, 160);
   });
 
+  test('relief glass of patterns and of a dropped picture', async (t) => {
+    const page = await open(t, `${quick}&quality=high`);
+    assert.ok(await page.isHidden('#relief-glass'));
+    let old = await seen(page);
+    const changes = async (name, least) => {
+      const now = await seen(page);
+      const differing = difference(old, now);
+      assert.ok(differing > least, `${name}: ${differing} % differ`);
+      old = now;
+    };
+    await page.getByRole('button', { name: 'Relief glass' }).click();
+    await changes('the relief', 10);
+    assert.equal(await page.inputValue('#technique'), 'heightfield');
+    assert.ok(await page.isHidden('#smooth'), 'patterns need no smoothing');
+    for (const [id, depth] of [['hammered', '0.050'], ['lens-array', '0.060'], ['fluted', '0.040']]) {
+      await page.locator(`#relief input[value=${id}]`).check();
+      assert.equal(await page.textContent('#depth-value'), depth);
+      await changes(id, 5);
+    }
+    await slide(page, 'depth', 0.2);
+    await changes('depth', 2);
+    await slide(page, 'slab', 0.5);
+    await changes('slab', 1);
+    await page.screenshot({ path: join(screenshots, 'demo-relief.png') });
+    const link = await query(page);
+    assert.deepEqual([link.model, link.relief, link.depth, link.slab, link.smooth, link.technique], ['relief', 'fluted', '0.2', '0.5', undefined, undefined]);
+    const again = await open(t, String(new URLSearchParams(link)));
+    assert.ok(difference(old, await seen(again)) < 0.5, 'a link shows the same');
+    assert.deepEqual(await query(again), link);
+    await page.locator('#preset input[value=medium]').check(); // enough steps for triangles
+    old = await seen(page);
+    await page.selectOption('#technique', 'exact');
+    const differing = difference(old, await seen(page));
+    assert.ok(differing < 0.5, `triangles show the same: ${differing} % differ`);
+    assert.equal((await query(page)).technique, 'exact');
+    await page.selectOption('#technique', 'heightfield');
+    await settle(page);
+
+    await page.evaluate(() => document.getElementById('stage').dispatchEvent(new DragEvent('dragenter', { bubbles: true, dataTransfer: new DataTransfer() })));
+    assert.match(await page.textContent('.dropzone'), /or a picture to see it as relief glass/);
+    const hills = new PNG({ width: 64, height: 48 });
+    for (let i = 0; i < 64 * 48; ++i) hills.data.fill(128 + 100 * Math.sin(i % 64 / 5) * Math.cos(Math.floor(i / 64) / 7), 4 * i, 4 * i + 4);
+    await drop(page, 'hills.png', PNG.sync.write(hills));
+    await page.waitForSelector('#relief .file input:checked', { state: 'attached' });
+    assert.ok(await page.locator('#environment input[value=sky]').isChecked(), 'the surroundings stay');
+    await changes('hills.png', 5);
+    await page.screenshot({ path: join(screenshots, 'demo-relief-picture.png') });
+    await slide(page, 'smooth', 8);
+    await changes('smoothing', 3);
+    assert.equal((await query(page)).relief, undefined, 'a file has no address');
+    await page.mouse.click(190, 200);
+    assert.ok(await page.locator('#path-list li').count() >= 2, 'a click traces its path');
+    await drop(page, 'broken.png', Buffer.from('nothing'));
+    await page.waitForSelector('#error:not([hidden])');
+    assert.match(await page.textContent('[role=alert]'), /broken\.png/);
+    await page.getByRole('button', { name: 'Dismiss' }).click();
+    assert.ok(await page.locator('#relief .file input').isChecked(), 'the picture before stays');
+    await page.setInputFiles('#relief-file', { name: 'flat.png', mimeType: 'image/png', buffer: PNG.sync.write(new PNG({ width: 9, height: 9 })) });
+    await page.waitForFunction(() => document.querySelector('#relief .file')?.textContent === 'flat.png');
+    assert.equal(await page.inputValue('#technique'), 'heightfield');
+    await page.getByRole('button', { name: 'Knot', exact: true }).click();
+    assert.equal(await page.inputValue('#technique'), 'exact');
+    assert.ok(await page.isHidden('#relief-glass'));
+    assert.equal((await query(page)).depth, undefined);
+  });
+
   test('presets and own numbers', async (t) => {
     const page = await open(t, 'quality=high');
     const show = (...expected) => page.waitForFunction((texts) => {
@@ -422,8 +488,8 @@ describe('the demo page', { skip }, () => {
 
   test('has no serious fault of accessibility', async (t) => {
     const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-    for (const [colorScheme, viewport] of [['dark', small], ['light', small], ['light', { width: 390, height: 844 }]]) {
-      const page = await open(t, `${quick}&compare=single&environment=studio`, { colorScheme, viewport });
+    for (const [colorScheme, viewport, shown] of [['dark', small, ''], ['light', small, '&model=relief'], ['light', { width: 390, height: 844 }, '']]) {
+      const page = await open(t, `${quick}&compare=single&environment=studio${shown}`, { colorScheme, viewport });
       const found = await page.evaluate(`(async () => { ${axe}; return (await window.axe.run()).violations; })()`);
       const grave = found.filter(({ impact }) => ['serious', 'critical'].includes(impact));
       assert.deepEqual(grave.map(({ id, nodes }) => [id, ...nodes.map(({ html, failureSummary }) => `${html} ${failureSummary}`)]), []);

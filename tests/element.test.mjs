@@ -75,6 +75,32 @@ function panorama() {
 const radiance = Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n'),
   Buffer.from([200, 20, 10, 128, 10, 180, 20, 128, 30, 10, 220, 128, 255, 255, 255, 131])]);
 
+/** Hills that no symmetry makes easy, as a .png. */
+function hills(width, height) {
+  const png = new PNG({ width, height });
+  for (let i = 0; i < width * height; ++i) {
+    const x = (i % width) / width, y = Math.floor(i / width) / height;
+    png.data.set([120 + 100 * Math.sin(9 * x + 2) * Math.cos(7 * y), 255 * y, 250 * x, 255], 4 * i);
+  }
+  return PNG.sync.write(png);
+}
+
+/** Heights as .pfm, which holds numbers as they are: grey, little endian, bottom row first. */
+function slopes(width, height) {
+  const numbers = Float32Array.from({ length: width * height }, (_, i) => Math.sin(0.3 * (i % width)) + 0.01 * Math.floor(i / width));
+  return Buffer.concat([Buffer.from(`Pf\n${width} ${height}\n-1.0\n`), Buffer.from(numbers.buffer)]);
+}
+
+/** Pictures of heights that the server has, good and bad. */
+const reliefs = PNG && new Map([
+  ['/hills.png', hills(90, 60)],
+  ['/slopes.pfm', slopes(40, 50)],
+  ['/dot.png', hills(1, 1)],
+  ['/wide.png', hills(4097, 2)],
+  ['/broken.png', hills(90, 60).fill(7, 60)],
+  ['/words.txt', Buffer.from('no picture')],
+]);
+
 /** The built site, test pages from memory, and files that come slowly or not at all. */
 function startServer(requests, pages) {
   return listen(async (request, response) => {
@@ -105,6 +131,8 @@ function startServer(requests, pages) {
       send(PNG.sync.write(panorama()), 'image/png');
     } else if (pathname === '/panorama.hdr') {
       send(radiance, 'image/vnd.radiance');
+    } else if (reliefs.has(pathname)) {
+      send(reliefs.get(pathname), 'application/octet-stream');
     } else if (pathname === '/poster.png') {
       send(plain(250, 10, 200, 255), 'image/png');
     } else {
@@ -560,6 +588,99 @@ describe('the element', { skip }, () => {
     assert.equal(difference(first, await picture(page)), 0);
   });
 
+  test('relief glass of patterns and pictures', async (t) => {
+    requests.length = 0;
+    const page = await open(t, '<vitrine-viewer id="a" relief="hammered" relief-depth="0.06" src="/good.glb" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>', { allowed: /404/ });
+    const show = async (changes) => {
+      await page.evaluate((values) => Object.assign(a, values), changes);
+      await page.waitForFunction(() => a.loaded);
+      await settle(page);
+      assert.equal(await message(page), '');
+      return picture(page);
+    };
+    const draws = async (name, seen, ...args) => {
+      const differing = difference(seen, nativePicture(...args));
+      t.diagnostic(`${name}: ${differing.toFixed(4)} % differ`);
+      assert.ok(differing < 0.5, `${name}: ${differing} % differ`);
+    };
+    assert.ok(!requests.includes('/good.glb'), 'relief goes before src');
+    assert.equal((await events(page, 'load')).at(-1).url, 'hammered');
+    const first = await picture(page);
+    await page.locator('#a').screenshot({ path: join(screenshots, 'element-relief.png') });
+    await draws('hammered', first, 'hammered', '--relief', '0.06');
+    const colours = new Set(new Uint32Array(Uint8Array.from(first.data).buffer));
+    assert.ok(colours.size > 1000, `${colours.size} colours`);
+
+    const exact = meanError(first, await show({ technique: 'exact' }));
+    t.diagnostic(`heightfield and exact: mean difference ${exact.toFixed(3)} of 255`);
+    assert.ok(exact < 0.5);
+    assert.ok(meanError(first, await show({ technique: 'layered' })) < 20);
+    assert.equal(meanError(first, await show({ technique: null })), 0, 'and back');
+    assert.ok(difference(first, await show({ reliefDepth: 0.2 })) > 5, 'depth');
+    assert.ok(difference(first, await show({ reliefDepth: 0.06, reliefSlab: 1 })) > 5, 'slab');
+    const path = await page.evaluate(() => {
+      const { left, top } = a.getBoundingClientRect();
+      return a.pathAt(left + 129, top + 127);
+    });
+    assert.ok(path.events.length >= 2 && path.exited, 'a path goes through');
+
+    for (const name of ['hills.png', 'slopes.pfm']) {
+      writeFileSync(join(folder, name), reliefs.get(`/${name}`));
+      requests.length = 0;
+      await draws(name, await show({ relief: `/${name}`, reliefDepth: 0.3, reliefSlab: null }), name, '--relief', '0.3');
+      await draws(`${name}, less deep`, await show({ reliefDepth: 0.1, reliefSmooth: 4 }), name, '--smooth', '4');
+      assert.deepEqual(requests, [`/${name}`], 'fetched once');
+      await show({ reliefDepth: null, reliefSmooth: null });
+    }
+    const keys = ['--object', 'hills.png:relief=0.2,at=0,0,-1', '--object', 'plane:checker=6,at=0,0,-2', '--object', 'fluted:at=2.1,0,0'];
+    const scene = await show({ relief: null, src: '', objects: keys.filter((_, i) => i % 2).join(';').replace('hills', '/hills') });
+    await draws('objects', scene, ...keys);
+
+    const cases = {
+      '/dot.png': /relief 'dot.png' is 1 x 1 samples, but a side must be 2 to 4096/,
+      '/wide.png': /relief 'wide.png' is 4097 x 2 samples, but a side must be 2 to 4096/,
+      '/broken.png': /relief 'broken.png' is a PNG or JPEG that the browser could not decode/,
+      '/words.txt': /relief 'words.txt' is no picture that can be read/,
+      '/good.glb': /relief 'good.glb' is no picture that can be read/,
+      knot: /knot: neither a built-in name nor a file/,
+    };
+    for (const [relief, sentence] of Object.entries(cases)) {
+      const count = (await events(page, 'error')).length;
+      await page.evaluate((url) => (a.relief = url), relief);
+      await page.waitForFunction((least) => window.events.filter(({ event }) => event === 'error').length > least, count);
+      assert.match(await message(page), sentence);
+      assert.equal(difference(scene, await picture(page)), 0, 'the picture stays');
+    }
+    await page.evaluate(() => Object.assign(a, { relief: null, objects: 'knot:relief=0.1' }));
+    await page.waitForFunction(() => /knot/.test(a.shadowRoot.querySelector('[part=message]').textContent));
+    assert.match(await message(page), /objects 'knot:relief=0.1' is no relief|'knot' is no relief, so the key 'relief' says nothing to it/);
+  });
+
+  test('a technique that cannot have the scene leaves it to the usual one', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" relief="ripples" camera-controls></vitrine-viewer>');
+    const first = await picture(page);
+    await page.evaluate(async () => {
+      const { Viewer } = await import('/element/core.js');
+      const { setGlass } = Viewer.prototype;
+      window.tries = 0;
+      Viewer.prototype.setGlass = function (glass) {
+        return glass.technique === 'exact' ? `too many triangles, try ${++window.tries}` : setGlass.call(this, glass);
+      };
+      a.technique = 'exact';
+    });
+    await settle(page);
+    assert.equal(await message(page), 'too many triangles, try 1');
+    assert.equal(difference(first, await picture(page)), 0, 'the picture stays');
+    await page.evaluate(() => a.shadowRoot.querySelector('.view').focus());
+    await page.keyboard.press('ArrowLeft');
+    await settle(page);
+    assert.ok(difference(first, await picture(page)) > 2, 'and turns');
+    assert.equal(await page.evaluate(() => window.tries), 1);
+    await page.evaluate(() => (a.technique = 'single'));
+    await settle(page);
+    assert.equal(await message(page), '');
+  });
+
   test('an outdated load is dropped', async (t) => {
     const page = await open(t, '<vitrine-viewer id="a" src="/slow.glb"></vitrine-viewer>', { waits: false });
     await page.waitForFunction(() => window.events.some(({ totalProgress }) => totalProgress > 0.1));
@@ -814,7 +935,7 @@ describe('the element', { skip }, () => {
       Object.assign(a, { ior: null, cameraControls: true, maxEvents: 3 });
       return [before, a.ior, a.hasAttribute('ior'), a.getAttribute('camera-controls'), a.getAttribute('max-events'), a.constructor.observedAttributes.length];
     });
-    assert.deepEqual(seen, [[1.4, 'exact', false, null], null, false, '', '3', 28]);
+    assert.deepEqual(seen, [[1.4, null, false, null], null, false, '', '3', 32]);
     const blob = await page.evaluate(async () => {
       const { type, size } = await a.toBlob({ mimeType: 'image/jpeg' });
       return [type, size > 1000];

@@ -36,6 +36,7 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Destroy(vtViewer* viewer)
         vtDestroyRenderer(viewer->renderer);
         vtDestroyScene(&viewer->scene);
         vtDestroyScene(&viewer->next);
+        vtDestroyMesh(&viewer->kept.unit);
         free(viewer->image);
         free(viewer);
     }
@@ -88,11 +89,7 @@ static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
 {
     vtResult result = vtValidateFrame(frame, &viewer->error);
     if (result == vt_ok) {
-        bool changed;
-        result = vtPrepareScene(&viewer->scene, frame->technique, &changed, &viewer->error);
-        if (result == vt_ok && changed) {
-            result = vtRenderer_SetScene(viewer->renderer, &viewer->scene, &viewer->error);
-        }
+        result = vtViewer_PrepareScene(viewer, frame->technique);
     }
     if (result == vt_ok) {
         viewer->frame = *frame;
@@ -120,16 +117,16 @@ static void lessen(vtFrame* frame)
     frame->maxEvents = least(full.maxEvents, low.maxEvents);
 }
 
-/// Technique by its id and the settings of the glass, ranges as in vtFrame, 0 where the preset or the object
-/// decides; `output` is a vtOutput. A layer beyond those there are is the last one. With `lessened` it is
-/// drawn with less.
+/// Technique by its id, empty: the scene decides, and the settings of the glass, ranges as in vtFrame, 0
+/// where the preset or the object decides; `output` is a vtOutput. A layer beyond those there are is the last
+/// one. With `lessened` it is drawn with less.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, float ior,
                                                    int preset, int layers, int steps, int maxEvents,
                                                    int output, int layer, float exposure, bool transparent,
                                                    int samples, bool lessened, bool fresnel)
 {
     vtFrame frame = viewer->frame;
-    frame.technique = vtFindTechnique(technique);
+    frame.technique = *technique == '\0' ? vtViewer_UsualTechnique(viewer) : vtFindTechnique(technique);
     if (frame.technique == vt_techniqueCount) {
         vtFail(&viewer->error, vt_errorArgument, "technique '%s' is not in the table", technique);
         return viewer->error.message;

@@ -1,12 +1,22 @@
 // A renderer with its scene and the frame to draw next: the part of a web page that is written in C.
 #pragma once
 
+#include "scene/object_spec.h"
 #include "vitrine.h"
+
+/// The relief added last, of depth 1: those of other depths and slabs are made from it.
+typedef struct vtKeptRelief {
+    vtMesh unit;
+    int source; ///< whose contents it has, a number of the caller's; 0: none, below: a pattern
+    float smoothing;
+    int samples; ///< asked of a pattern
+} vtKeptRelief;
 
 typedef struct vtViewer {
     vtRenderer* renderer;
     vtScene scene; ///< on the GPU as well; kept for its numbers
     vtScene next;  ///< being put together
+    vtKeptRelief kept;
     vtFrame frame; ///< of the canvas; each tick draws one of its samples
     int sample;    ///< the next one
     bool changed;  ///< since the frame drawn last
@@ -25,9 +35,24 @@ void vtViewer_Destroy(vtViewer* viewer);
 /// to do, -1: failed, see vtViewer_Error.
 int vtViewer_Tick(vtViewer* viewer);
 
+/// Gives the scene what a technique needs; where that cannot be had, all stays on the GPU as it was.
+vtResult vtViewer_PrepareScene(vtViewer* viewer, vtTechnique technique);
+
+/// `heightfield` for a scene with a relief, else `exact`.
+vtTechnique vtViewer_UsualTechnique(const vtViewer* viewer);
+
 /// Of the scene's glass.
 typedef struct vtSceneFacts {
     uint32_t triangles, openEdges, glassCount;
     float ior; ///< in the picture; 0: not all of it has the same, or there is none
 } vtSceneFacts;
 vtSceneFacts vtViewer_SceneFacts(const vtViewer* viewer);
+
+/// An object's line of text about something of that kind; empty: as it is.
+vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec);
+
+/// Move a mesh, a built-in relief or the contents of a .hdr or .pfm into the scene that was begun.
+vtResult vtViewer_AddMesh(vtViewer* viewer, vtMesh* mesh, const char* name, const vtObjectSpec* spec);
+vtResult vtViewer_AddPattern(vtViewer* viewer, int pattern, const vtObjectSpec* spec);
+const char* vtViewer_AddRelief(vtViewer* viewer, uint8_t* bytes, size_t size, const char* name,
+                               const char* text, int source);

@@ -1,12 +1,14 @@
-// What a viewer shows: a scene put together of shapes and models, its pictures, its cameras. The calls are
-// like those of viewer.c.
+// What a viewer shows: a scene put together of shapes, reliefs and models, its pictures, its cameras. The
+// calls are like those of viewer.c.
 #include <emscripten.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "scene/object_spec.h"
+#include "base/image.h"
+#include "scene/objects.h"
+#include "scene/relief.h"
 #include "viewer.h"
 
 static const char* sentence(const vtViewer* viewer, vtResult result)
@@ -20,60 +22,69 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Begin(vtViewer* viewer)
     vtDestroyScene(&viewer->next);
 }
 
-/// Moves what was made into the scene that was begun. `spec`: an object's line of text (scene/object_spec.h);
-/// empty: as it is.
-static vtResult add(vtViewer* viewer, vtScene* made, const char* spec)
+vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec)
 {
-    vtTransform place = vtIdentityTransform();
-    vtResult result = vt_ok;
-    if (*spec != '\0') {
-        vtObjectSpec* parsed = malloc(sizeof *parsed);
-        result = parsed != NULL ? vtParseObject(spec, "objects", false, parsed, &viewer->error)
-                                : vtFail(&viewer->error, vt_errorMemory, "objects: out of memory");
-        if (result == vt_ok) {
-            result = vtObjectSpec_Check(parsed, vt_kindMesh, "objects", &viewer->error);
-        }
-        if (result == vt_ok) {
-            vtObjectSpec_Apply(parsed, made);
-            place = vtObjectSpec_Place(parsed);
-        }
-        free(parsed);
-    }
-    if (result == vt_ok) {
-        result = vtScene_Append(&viewer->next, made, &place, &viewer->error);
-    }
+    *spec = (vtObjectSpec){0};
+    const vtResult result =
+        *text == '\0' ? vt_ok : vtParseObject(text, "objects", false, spec, &viewer->error);
+    return result == vt_ok ? vtObjectSpec_Check(spec, kind, "objects", &viewer->error) : result;
+}
+
+/// Moves what was made into the scene that was begun.
+static vtResult add(vtViewer* viewer, vtScene* made, const vtObjectSpec* spec)
+{
+    vtObjectSpec_Apply(spec, made);
+    const vtTransform place = vtObjectSpec_Place(spec);
+    const vtResult result = vtScene_Append(&viewer->next, made, &place, &viewer->error);
     vtDestroyScene(made);
     return result;
 }
 
-/// Adds a built-in shape by name.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddShape(vtViewer* viewer, const char* name, const char* spec)
+vtResult vtViewer_AddMesh(vtViewer* viewer, vtMesh* mesh, const char* name, const vtObjectSpec* spec)
 {
-    vtMesh mesh;
     vtScene made = {0};
     vtMaterial material = vtDefaultMaterial();
-    material.opaque = strcmp(name, "plane") == 0; // it has no volume
-    vtResult result = vtCreateShape(name, &mesh, &viewer->error);
-    if (result == vt_ok) {
-        result = vtCreateMeshScene(&mesh, &material, &made, &viewer->error);
-        vtDestroyMesh(&mesh);
-    }
+    material.opaque = mesh->heights == NULL && strcmp(name, "plane") == 0; // it has no volume
+    vtResult result = vtCreateMeshScene(mesh, &material, &made, &viewer->error);
+    vtDestroyMesh(mesh);
     if (result == vt_ok) {
         snprintf(made.objects[0].name, sizeof made.objects[0].name, "%.63s", name);
         result = add(viewer, &made, spec);
     }
-    return sentence(viewer, result);
+    return result;
 }
 
-/// Adds the contents of a .glb or self-contained .gltf.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* bytes, size_t size,
-                                                   const char* name, const char* spec)
+/// Adds a built-in shape or relief by name.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddShape(vtViewer* viewer, const char* name, const char* text)
 {
+    vtMesh mesh;
+    vtObjectSpec spec;
+    const int pattern = vtFindReliefPattern(name);
+    vtResult result =
+        vtViewer_ReadSpec(viewer, text, pattern >= 0 ? vt_kindReliefPattern : vt_kindMesh, &spec);
+    if (result == vt_ok && pattern >= 0) {
+        return sentence(viewer, vtViewer_AddPattern(viewer, pattern, &spec));
+    }
+    if (result == vt_ok) {
+        result = vtCreateShape(name, &mesh, &viewer->error);
+    }
+    return sentence(viewer, result == vt_ok ? vtViewer_AddMesh(viewer, &mesh, name, &spec) : result);
+}
+
+/// Adds the contents of a .glb or self-contained .gltf, or heights.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* bytes, size_t size,
+                                                   const char* name, const char* text, int source)
+{
+    if (vtIsPicture(bytes, size)) {
+        return vtViewer_AddRelief(viewer, bytes, size, name, text, source);
+    }
     vtScene made;
+    vtObjectSpec spec;
     const vtModelDef def = {.bytes = bytes, .size = size, .name = name};
-    vtResult result = vtLoadScene(&def, &made, &viewer->error);
+    vtResult result = vtViewer_ReadSpec(viewer, text, vt_kindMesh, &spec);
+    result = result == vt_ok ? vtLoadScene(&def, &made, &viewer->error) : result;
     free(bytes);
-    return sentence(viewer, result == vt_ok ? add(viewer, &made, spec) : result);
+    return sentence(viewer, result == vt_ok ? add(viewer, &made, &spec) : result);
 }
 
 /// Pictures of the scene that was begun.
@@ -105,10 +116,14 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_SetImage(vtViewer* viewer, int index, uint8_t
     image->height = height;
 }
 
-/// Shows the scene that was begun; where it cannot be uploaded, the one before stays.
+/// Shows the scene that was begun; where it cannot be uploaded, the one before stays. A relief is shown by
+/// its heights, so that no triangles are made before a technique asks for them.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Show(vtViewer* viewer)
 {
-    vtResult result = vtPrepareScene(&viewer->next, viewer->frame.technique, NULL, &viewer->error);
+    const vtTechnique technique = vtScene_Relief(&viewer->next) < viewer->next.meshCount
+                                      ? vt_techniqueHeightField
+                                      : viewer->frame.technique;
+    vtResult result = vtPrepareScene(&viewer->next, technique, NULL, &viewer->error);
     if (result == vt_ok) {
         result = vtRenderer_SetScene(viewer->renderer, &viewer->next, &viewer->error);
     }
@@ -116,10 +131,50 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Show(vtViewer* viewer)
         vtDestroyScene(&viewer->scene);
         viewer->scene = viewer->next;
         viewer->next = (vtScene){0};
+        if (technique == vt_techniqueHeightField) {
+            viewer->frame.technique = technique;
+            viewer->frame.output = vt_outputPicture; // it has no layers to show
+        }
         viewer->changed = true;
     }
     vtDestroyScene(&viewer->next);
     return sentence(viewer, result);
+}
+
+/// Reliefs go without their triangles again.
+static void dropTriangles(vtScene* scene)
+{
+    for (uint32_t i = 0; i < scene->meshCount; ++i) {
+        vtMesh* mesh = &scene->meshes[i];
+        if (mesh->heights != NULL) {
+            free(mesh->positions);
+            free(mesh->normals);
+            free(mesh->indices);
+            free(mesh->innerDistances);
+            mesh->positions = mesh->normals = mesh->innerDistances = NULL;
+            mesh->indices = NULL;
+            mesh->vertexCount = mesh->indexCount = 0;
+        }
+    }
+}
+
+vtResult vtViewer_PrepareScene(vtViewer* viewer, vtTechnique technique)
+{
+    bool changed;
+    vtResult result = vtPrepareScene(&viewer->scene, technique, &changed, &viewer->error);
+    if (result == vt_ok && changed) {
+        result = vtRenderer_SetScene(viewer->renderer, &viewer->scene, &viewer->error);
+    }
+    if (result != vt_ok) {
+        dropTriangles(&viewer->scene); // too many: those of another try
+    }
+    return result;
+}
+
+vtTechnique vtViewer_UsualTechnique(const vtViewer* viewer)
+{
+    return vtScene_Relief(&viewer->scene) < viewer->scene.meshCount ? vt_techniqueHeightField
+                                                                    : vt_techniqueExact;
 }
 
 /// A scene of one shape.
@@ -135,7 +190,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenModel(vtViewer* viewer, uint8_t* b
                                                     const char* name)
 {
     vtViewer_Begin(viewer);
-    const char* problem = vtViewer_AddModel(viewer, bytes, size, name, "");
+    const char* problem = vtViewer_AddModel(viewer, bytes, size, name, "", 0);
     return problem != NULL ? problem : vtViewer_Show(viewer);
 }
 

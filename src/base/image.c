@@ -342,10 +342,10 @@ vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float
     const bool isHdr = stbi_is_hdr_from_memory(bytes, length) != 0;
 #ifdef VT_HDR_ONLY
     if (!isHdr) {
-        return vtFail(
-            error, vt_errorFormat,
-            "relief '%.300s' is PNG or JPEG, which this build leaves to the browser; give .hdr or .pfm",
-            name);
+        return vtFail(error, vt_errorFormat,
+                      "relief '%.300s' is a PNG or JPEG that the browser could not decode; it is damaged, so "
+                      "save it again",
+                      name);
     }
 #endif
     int columns = 0, rows = 0, channels = 0;

@@ -7,6 +7,7 @@
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "base/math.h"
@@ -67,15 +68,29 @@ static vtResult checkDef(const vtReliefDef* def, const char* name, vtError* erro
     return vt_ok;
 }
 
-/// A Gaussian along rows (step 1) or columns (step width), samples beyond the border as the one on it.
-static void blur(const float* from, float* to, int count, size_t step, const float* weights, int reach)
+/// A Gaussian along a row, samples beyond the border as the one on it.
+static void blurAlong(const float* from, float* to, int count, const float* weights, int reach)
 {
     for (int i = 0; i < count; ++i) {
         float sum = 0.0f;
         for (int k = -reach; k <= reach; ++k) {
-            sum += weights[k + reach] * from[(size_t)clampInt(i + k, 0, count - 1) * step];
+            sum += weights[k + reach] * from[clampInt(i + k, 0, count - 1)];
         }
-        to[(size_t)i * step] = sum;
+        to[i] = sum;
+    }
+}
+
+/// The same across rows, a whole row at a time: a column's samples lie far apart in memory.
+static void blurAcross(const float* from, float* to, const vtHeightField* field, int row,
+                       const float* weights, int reach)
+{
+    const size_t width = (size_t)field->width;
+    memset(to, 0, width * sizeof *to);
+    for (int k = -reach; k <= reach; ++k) {
+        const float* other = from + width * (size_t)clampInt(row + k, 0, field->height - 1);
+        for (size_t column = 0; column < width; ++column) {
+            to[column] += weights[k + reach] * other[column];
+        }
     }
 }
 
@@ -97,12 +112,13 @@ static bool smooth(vtHeightField* field, float deviation)
     if (between == NULL) {
         return false;
     }
+    const size_t width = (size_t)field->width;
     for (int row = 0; row < field->height; ++row) {
-        const size_t first = (size_t)row * (size_t)field->width;
-        blur(field->z + first, between + first, field->width, 1, weights, reach);
+        const size_t first = (size_t)row * width;
+        blurAlong(field->z + first, between + first, field->width, weights, reach);
     }
-    for (int column = 0; column < field->width; ++column) {
-        blur(between + column, field->z + column, field->height, (size_t)field->width, weights, reach);
+    for (int row = 0; row < field->height; ++row) {
+        blurAcross(between, field->z + (size_t)row * width, field, row, weights, reach);
     }
     free(between);
     return true;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "scene/height_field.h"
 
 /// Steps of 1/256 of the depth, spread over five samples and more, no longer show in a refraction.
 static const float smoothingOf8Bits = 2.0f;
@@ -54,6 +55,73 @@ vtResult vtLoadReliefOfBits(const void* bytes, size_t size, const char* name, co
     }
     free(heights);
     return result;
+}
+
+vtResult vtCreateReliefOfPixels(const uint8_t* pixels, int width, int height, const char* name,
+                                const vtReliefDef* def, vtMesh* mesh, vtError* error)
+{
+    assert(def != NULL && mesh != NULL);
+    *mesh = (vtMesh){0};
+    name = name != NULL ? name : "unnamed";
+    vtResult result = vtCheckHeightSides(name, width, height, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    const size_t count = (size_t)width * (size_t)height;
+    float* heights = malloc(count * sizeof *heights);
+    if (heights == NULL) {
+        return vtFail(error, vt_errorMemory,
+                      "relief '%.300s': out of memory for %d x %d samples; scale it down", name, width,
+                      height);
+    }
+    for (size_t i = 0; i < count; ++i, pixels += 4) {
+        // The luma of stb_image, so that the same file has the same heights everywhere.
+        heights[i] = (float)((77 * pixels[0] + 150 * pixels[1] + 29 * pixels[2]) >> 8) / 255.0f;
+    }
+    vtReliefDef own = *def;
+    own.heights = heights;
+    own.width = width;
+    own.height = height;
+    own.smoothing = def->smoothing != -1.0f ? def->smoothing : smoothingOf8Bits;
+    result = vtCreateRelief(&own, name, mesh, error);
+    free(heights);
+    return result;
+}
+
+vtResult vtCreateReliefOfDepth(const vtMesh* unit, float depth, float thickness, const char* name,
+                               vtMesh* mesh, vtError* error)
+{
+    const vtHeightField* from = unit->heights;
+    const size_t count = (size_t)from->width * (size_t)from->height;
+    const size_t rangeCount = from->starts[from->levelCount + 1];
+    *mesh = *unit;
+    vtHeightField* field = mesh->heights = malloc(sizeof *field);
+    if (field != NULL) {
+        *field = *from;
+        field->z = malloc(count * sizeof *field->z);
+        field->ranges = malloc(rangeCount * sizeof *field->ranges);
+    }
+    if (field == NULL || field->z == NULL || field->ranges == NULL) {
+        vtDestroyHeightField(field);
+        *mesh = (vtMesh){0};
+        return vtFail(error, vt_errorMemory,
+                      "relief '%.300s': out of memory for %d x %d samples; scale it down", name, from->width,
+                      from->height);
+    }
+    for (size_t i = 0; i < count; ++i) {
+        field->z[i] = depth * from->z[i];
+    }
+    for (size_t i = 0; i < rangeCount; ++i) {
+        const vtHeightRange range = from->ranges[i];
+        const bool hasCells = range.low <= range.high; // else infinite
+        field->ranges[i] = hasCells ? (vtHeightRange){depth * range.low, depth * range.high} : range;
+    }
+    field->low = depth * from->low;
+    field->high = depth * from->high;
+    field->back = fminf(field->low, 0.0f) - thickness;
+    mesh->boundsMin.z = field->back;
+    mesh->boundsMax.z = field->high;
+    return vtSucceed(error);
 }
 
 vtResult vtLoadRelief(const void* bytes, size_t size, const char* name, const vtReliefDef* def, vtMesh* mesh,

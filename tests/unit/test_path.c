@@ -171,12 +171,70 @@ static void opaqueThingsEndThePath(void** state)
     vtDestroyScene(&scene);
 }
 
+/// A pattern as glass; `triangles`: as a mesh of those alone.
+static void addPattern(vtScene* scene, bool triangles)
+{
+    vtMesh mesh, plain;
+    vtError error;
+    vtReliefDef def = vtDefaultRelief();
+    const vtMaterial material = vtDefaultMaterial();
+    const vtTransform place = vtIdentityTransform();
+    def.width = 57;
+    def.height = 40;
+    assert_ok(vtCreateReliefPattern("hammered", &def, &mesh, &error), error);
+    if (triangles) {
+        assert_ok(vtTriangulateRelief(&mesh, &error), error);
+        const vtMeshDef all = {.positions = mesh.positions,
+                               .normals = mesh.normals,
+                               .indices = mesh.indices,
+                               .vertexCount = mesh.vertexCount,
+                               .indexCount = mesh.indexCount};
+        assert_ok(vtCreateMesh(&all, "hammered", &plain, &error), error);
+        vtDestroyMesh(&mesh);
+        mesh = plain;
+    }
+    vtScene added;
+    assert_ok(vtCreateMeshScene(&mesh, &material, &added, &error), error);
+    assert_ok(vtScene_Append(scene, &added, &place, &error), error);
+}
+
+// A relief without triangles is met where those made of it are.
+static void reliefIsMetByItsHeights(void** state)
+{
+    (void)state;
+    vtScene heights = {0}, triangles = {0};
+    addPattern(&heights, false);
+    addPattern(&triangles, true);
+    vtFrame frame = frontal();
+    const vtVec3 eyes[] = {{0, 0, 4}, {2, 1, 3}, {-3, 1, 0.2f}, {1, -2, -3}};
+    for (size_t eye = 0; eye < sizeof eyes / sizeof eyes[0]; ++eye) {
+        frame.view.eye = eyes[eye];
+        for (int pixel = 0; pixel < 81; ++pixel) {
+            const float x = 25.3f + 6.1f * (float)(pixel % 9), y = 25.7f + 6.1f * (float)(pixel / 9);
+            vtPath path, expected;
+            vtError error;
+            assert_ok(vtTracePath(&heights, &frame, x, y, &path, &error), error);
+            assert_ok(vtTracePath(&triangles, &frame, x, y, &expected, &error), error);
+            assert_int_equal(path.eventCount, expected.eventCount);
+            assert_int_equal(path.exited, expected.exited);
+            for (int i = 0; i < path.eventCount; ++i) {
+                assert_int_equal(path.events[i].reflected, expected.events[i].reflected);
+                assert_true(vtLength(vtSub(path.events[i].position, expected.events[i].position)) < 1e-3f);
+            }
+        }
+    }
+    assert_int_equal(heights.meshes[0].indexCount, 0);
+    vtDestroyScene(&heights);
+    vtDestroyScene(&triangles);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ballIsPassedInTwoRefractions), cmocka_unit_test(rayBesideTheGlassMeetsNothing),
         cmocka_unit_test(diamondReflectsInside),        cmocka_unit_test(twoBallsArePassedOneAfterTheOther),
         cmocka_unit_test(bubbleIsMetTheOtherWayRound),  cmocka_unit_test(opaqueThingsEndThePath),
+        cmocka_unit_test(reliefIsMetByItsHeights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

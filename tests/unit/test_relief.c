@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/image.h"
 #include "base/math.h"
 #include "scene/height_field.h"
+#include "scene/relief.h"
 #include "testing.h"
 
 /// A relief of hills that no symmetry makes easy.
@@ -170,6 +172,60 @@ static void testSmoothingKeepsTheMean(void** state)
     vtDestroyMesh(&mesh);
 }
 
+// Decoded pixels are the file's own heights.
+static void testPixelsAreTheFile(void** state)
+{
+    (void)state;
+    enum { width = 9, height = 6 };
+    uint8_t pixels[4 * width * height], *bytes;
+    for (int i = 0; i < 4 * width * height; ++i) {
+        pixels[i] = (uint8_t)(i * i * 31 + 7 * i);
+    }
+    size_t size;
+    vtMesh read, made;
+    vtError error;
+    assert_int_equal(vtEncodePng(pixels, 4, width, height, &bytes, &size, &error), vt_ok);
+    const vtReliefDef def = vtDefaultRelief();
+    assert_int_equal(vtLoadRelief(bytes, size, "noise", &def, &read, &error), vt_ok);
+    assert_int_equal(vtCreateReliefOfPixels(pixels, width, height, "noise", &def, &made, &error), vt_ok);
+    assert_memory_equal(read.heights->z, made.heights->z, width * height * sizeof(float));
+    free(bytes);
+    vtDestroyMesh(&read);
+    vtDestroyMesh(&made);
+    assert_int_equal(vtCreateReliefOfPixels(pixels, 1, 1, "dot.png", &def, &made, &error), vt_errorFormat);
+    assert_non_null(strstr(error.message, "dot.png' is 1 x 1 samples"));
+    assert_int_equal(vtCreateReliefOfPixels(NULL, 5000, 9, "wide.png", &def, &made, &error), vt_errorFormat);
+}
+
+// Another depth is what the heights of that depth are.
+static void testDepthIsAFactor(void** state)
+{
+    (void)state;
+    vtError error;
+    vtReliefDef def = vtDefaultRelief();
+    def.width = 37;
+    def.height = 20;
+    def.depth = 1.0f;
+    vtMesh unit, made, deepened;
+    assert_int_equal(vtCreateReliefPattern("ripples", &def, &unit, &error), vt_ok);
+    const float depths[] = {0.0f, 0.3f, 2.0f};
+    for (int i = 0; i < 3; ++i) {
+        def.depth = depths[i];
+        def.thickness = 0.2f;
+        assert_int_equal(vtCreateReliefPattern("ripples", &def, &made, &error), vt_ok);
+        assert_int_equal(vtCreateReliefOfDepth(&unit, depths[i], 0.2f, "ripples", &deepened, &error), vt_ok);
+        const vtHeightField *a = made.heights, *b = deepened.heights;
+        assert_memory_equal(a->z, b->z, 37 * 20 * sizeof(float));
+        assert_memory_equal(a->ranges, b->ranges, a->starts[a->levelCount + 1] * sizeof *a->ranges);
+        assert_true(a->low == b->low && a->high == b->high && a->back == b->back);
+        assert_memory_equal(&made.boundsMin, &deepened.boundsMin, sizeof made.boundsMin);
+        assert_memory_equal(&made.boundsMax, &deepened.boundsMax, sizeof made.boundsMax);
+        vtDestroyMesh(&made);
+        vtDestroyMesh(&deepened);
+    }
+    vtDestroyMesh(&unit);
+}
+
 static void expectFailure(const vtReliefDef* def, const char* words)
 {
     vtMesh mesh;
@@ -210,6 +266,7 @@ int main(void)
         cmocka_unit_test(testTrianglesAreClosed),    cmocka_unit_test(testTrianglesHaveTheirNumbers),
         cmocka_unit_test(testRangesHoldTheirCells),  cmocka_unit_test(testContainsWhatIsBelow),
         cmocka_unit_test(testSmoothingKeepsTheMean), cmocka_unit_test(testBadReliefs),
+        cmocka_unit_test(testPixelsAreTheFile),      cmocka_unit_test(testDepthIsAFactor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 // The panel and the gallery: everything a visitor can set, in step with the store.
-import { environments, extraEnvironments, extraModels, glassOf, glasses, outputs, peels, presets, qualities, scenes, shapes, techniques } from './state.js';
+import { environments, extraEnvironments, extraModels, glassOf, glasses, outputs, patterns, peels, presets, qualities, reliefState, scenes, shapes, techniqueFor, techniques } from './state.js';
 
 const element = (id) => document.getElementById(id);
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
@@ -13,6 +13,9 @@ const legends = {
 };
 
 const sliders = {
+  depth: (value) => value.toFixed(3),
+  slab: (value) => value.toFixed(2),
+  smooth: (value) => `${value} samples`,
   ior: (value) => value.toFixed(3),
   layers: String,
   steps: String,
@@ -57,7 +60,11 @@ function addShape(url, name, picture, onChoose, title = name) {
  * @param {object} page what the buttons do, and what the viewer can
  */
 export function buildControls(store, page) {
-  const chooseModel = (model) => store.set({ model, iors: '', orbit: 'auto auto auto', target: 'auto auto auto', ...scenes.get(model)?.state });
+  const chooseModel = (model) => {
+    const technique = techniqueFor(model, store.state.technique);
+    store.set({ model, technique, iors: '', orbit: 'auto auto auto', target: 'auto auto auto', ...scenes.get(model)?.state });
+  };
+  for (const { id, name } of patterns) addSegment('relief', id, name, (relief) => store.set(reliefState(relief)));
   for (const shape of shapes) addShape(shape, capital(shape), `pictures/${shape}.png`, chooseModel);
   for (const [id, { title, name, picture }] of scenes) addShape(id, name, picture, chooseModel, title);
   for (const [id, { title, picture }] of extraModels) addShape(id, title, picture, chooseModel);
@@ -88,6 +95,7 @@ export function buildControls(store, page) {
   const pickers = {
     'model-file': (file) => page.openFile(file, 'model'),
     'image-file': (file) => page.openFile(file, 'environment'),
+    'relief-file': (file) => page.openFile(file, 'relief'),
     'picture-file': page.comparePicture,
   };
   for (const [id, act] of Object.entries(pickers)) {
@@ -162,16 +170,28 @@ function fold(isFolded) {
   element('fold').setAttribute('aria-expanded', String(!isFolded));
 }
 
+/** The visitor's own file among the choices of a segment. */
+function addFile(id, state, files, onChoose) {
+  const url = state[id];
+  if (!files.has(url) || element(id).querySelector(`[value="${url}"]`)) return;
+  element(id).querySelector('.file')?.remove();
+  addSegment(id, url, files.get(url), onChoose).parentElement.classList.add('file');
+}
+
+function showRelief({ model, relief }, files) {
+  const isRelief = model === 'relief';
+  element('relief-glass').hidden = !isRelief;
+  element('smooth').parentElement.hidden = !files.has(relief); // patterns are smooth
+  element('drop-hint').textContent = isRelief ? 'or a picture to see it as relief glass' : 'or a .hdr to light it';
+}
+
 function show(state, files, chooseModel, store) {
   if (files.has(state.model) && !element('gallery').querySelector(`[data-url="${state.model}"]`)) {
     addShape(state.model, files.get(state.model), null, chooseModel);
   }
   for (const button of element('gallery').children) button.setAttribute('aria-pressed', String(button.dataset.url === state.model));
-  if (files.has(state.environment) && !element('environment').querySelector(`[value="${state.environment}"]`)) {
-    element('environment').querySelector('.file')?.remove();
-    addSegment('environment', state.environment, files.get(state.environment), (environment) => store.set({ environment }))
-      .parentElement.classList.add('file');
-  }
+  addFile('environment', state, files, (environment) => store.set({ environment }));
+  addFile('relief', state, files, (relief) => store.set(reliefState(relief, files.get(relief))));
   if (files.has(state.compare) && !element('compare').querySelector(`[value="${state.compare}"]`)) {
     element('pictures').append(new Option(files.get(state.compare), state.compare));
   }
@@ -191,8 +211,9 @@ function show(state, files, chooseModel, store) {
     input.style.setProperty('--share', shareOf(input, value));
   }
   showGlass(state, store);
+  showRelief(state, files);
   for (const id of checks) element(id).checked = state[id];
-  for (const id of ['quality', 'environment', 'output', 'theme']) choose(id, state[id]);
+  for (const id of ['relief', 'quality', 'environment', 'output', 'theme']) choose(id, state[id]);
   choose('preset', state.layers || state.steps || state.events ? '' : state.preset); // none: the visitor's own numbers
   element('technique').value = state.technique;
   element('compare').value = state.compare;

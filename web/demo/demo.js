@@ -2,7 +2,7 @@
 import { VitrineViewer } from '../element/vitrine-viewer.js';
 import { buildControls } from './controls.js';
 import { PathOverlay } from './path.js';
-import { Store, defaults, extraEnvironments, extraModels, loadExtraModels, objectsOf, peels, readState, reference, scenes, techniques, writeState } from './state.js';
+import { Store, defaults, extraEnvironments, extraModels, loadExtraModels, objectsOf, peels, readState, reference, reliefState, scenes, techniqueFor, techniques, writeState } from './state.js';
 import { Wipe } from './wipe.js';
 
 const element = (id) => document.getElementById(id);
@@ -29,10 +29,14 @@ function showError(text) {
 
 /** What both viewers of a comparison have in common, as attributes; null: absent. */
 function attributesOf(state) {
-  const objects = objectsOf(state);
+  const objects = objectsOf(state), isRelief = state.model === 'relief';
   return {
-    src: objects === null ? (extraModels.get(state.model)?.url ?? state.model) : null,
+    src: objects === null && !isRelief ? (extraModels.get(state.model)?.url ?? state.model) : null,
     objects,
+    relief: isRelief ? state.relief : null,
+    'relief-depth': isRelief ? state.depth : null,
+    'relief-slab': isRelief ? state.slab : null,
+    'relief-smooth': isRelief && files.has(state.relief) ? state.smooth : null,
     'environment-image': extraEnvironments.get(state.environment)?.url ?? state.environment,
     'skybox-image': state.backdrop ? '' : null,
     ior: objects === null ? state.ior : null,
@@ -95,7 +99,8 @@ function orbitAttribute({ orbit, fov }) {
 
 function showLeft(state) {
   const attributes = { ...attributesOf(state), technique: state.technique, 'auto-rotate': state.rotate ? '' : null };
-  attributes.alt = `${files.get(state.model) ?? scenes.get(state.model)?.title ?? state.model}, in glass`;
+  attributes.alt = state.model === 'relief' ? `${files.get(state.relief) ?? state.relief} as relief glass`
+    : `${files.get(state.model) ?? scenes.get(state.model)?.title ?? state.model}, in glass`;
   const isPlaced = state.orbit !== cameraOrbit || state.target !== cameraTarget;
   if (isPlaced) attributes['camera-orbit'] = orbitAttribute(state);
   else delete attributes['camera-target'];
@@ -159,11 +164,20 @@ left.addEventListener('progress', ({ detail }) => {
   element('progress').value = detail.totalProgress;
   element('progress').classList.toggle('done', detail.totalProgress >= 1);
 });
-left.addEventListener('render-scale', ({ detail }) => {
-  const { pixelWidth, pixelHeight, preset, layers, steps, maxEvents, renderedDpr, reportedDpr, reason } = detail;
+let scale = null; // detail of the last render-scale
+
+function showScale() {
+  if (scale === null) return;
+  const { pixelWidth, pixelHeight, preset, layers, steps, maxEvents, renderedDpr, reportedDpr } = scale;
   const share = Math.round((100 * renderedDpr) / Math.min(2, reportedDpr ?? window.devicePixelRatio));
-  element('size').textContent = `${pixelWidth} × ${pixelHeight}${share < 100 ? ` (${share} %)` : ''} · ${layers} layers · ${steps} steps`;
+  const search = store.state.technique === 'heightfield' ? `${maxEvents} events` : `${layers} layers · ${steps} steps`;
+  element('size').textContent = `${pixelWidth} × ${pixelHeight}${share < 100 ? ` (${share} %)` : ''} · ${search}`;
   element('size').title = `preset ${preset}, ${maxEvents} events`;
+}
+
+left.addEventListener('render-scale', ({ detail }) => {
+  const { layers, steps, maxEvents, reason } = (scale = detail);
+  showScale();
   const { resolved } = store.state;
   const isSame = resolved.layers === layers && resolved.steps === steps && resolved.events === maxEvents;
   if (reason !== 'frame-time' && !isSame) store.set({ resolved: { layers, steps, events: maxEvents } });
@@ -186,26 +200,37 @@ left.addEventListener('error', ({ detail }) => {
 
 // --------------------------------------------------------------------------------------------------- files
 
-function openFile(file, kind = /\.(hdr|png|jpe?g)$/i.test(file.name) ? 'environment' : 'model') {
+/** What a dropped file is: a picture is the relief while relief glass is shown, else the surroundings. */
+function kindOf({ name, type }) {
+  if (/\.pfm$/i.test(name)) return 'relief';
+  const isPicture = type.startsWith('image/') || /\.(hdr|png|jpe?g)$/i.test(name);
+  return !isPicture ? 'model' : store.state.model === 'relief' ? 'relief' : 'environment';
+}
+
+function openFile(file, kind = kindOf(file)) {
   const url = URL.createObjectURL(file);
   files.set(url, file.name);
   showError('');
   const { state } = store;
   if (kind === 'model') {
-    before.set(url, { model: state.model, iors: state.iors, orbit: state.orbit, target: state.target });
-    store.set({ model: url, iors: '', orbit: defaults.orbit, target: defaults.target });
+    before.set(url, { model: state.model, technique: state.technique, iors: state.iors, orbit: state.orbit, target: state.target });
+    store.set({ model: url, technique: techniqueFor(url, state.technique), iors: '', orbit: defaults.orbit, target: defaults.target });
+  } else if (kind === 'relief') {
+    const { model, technique, relief, depth, smooth } = state;
+    before.set(url, { model, technique, relief, depth, smooth });
+    store.set({ model: 'relief', technique: model === 'relief' ? technique : techniqueFor('relief', technique), ...reliefState(url, file.name) });
   } else {
     before.set(url, { environment: state.environment });
     store.set({ environment: url });
   }
-  note(`Opened ${file.name}`);
+  note(kind === 'relief' ? `${file.name} is the relief` : `Opened ${file.name}`);
 }
 
 function comparePicture(blob, name) {
   const url = URL.createObjectURL(blob);
   files.set(url, name);
-  const { model, environment, ior, iors, exposure, orbit, target, fov } = store.state;
-  pictureViews.set(url, { model, environment, ior, iors, exposure, orbit, target, fov });
+  const { model, relief, depth, slab, smooth, environment, ior, iors, exposure, orbit, target, fov } = store.state;
+  pictureViews.set(url, { model, relief, depth, slab, smooth, environment, ior, iors, exposure, orbit, target, fov });
   store.set({ compare: url });
 }
 
@@ -231,7 +256,8 @@ async function savePicture() {
   try {
     const link = document.createElement('a');
     link.href = URL.createObjectURL(await left.toBlob());
-    link.download = `vitrine-${(files.get(store.state.model) ?? store.state.model).replace(/\.\w+$/, '')}.png`;
+    const { model, relief } = store.state, shown = model === 'relief' ? relief : model;
+    link.download = `vitrine-${(files.get(shown) ?? shown).replace(/\.\w+$/, '')}.png`;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     note(`Saved ${link.download}`);
@@ -252,7 +278,8 @@ function keepAddress() {
 
 async function copyLink() {
   keepAddress();
-  const own = files.has(store.state.model) || files.has(store.state.environment);
+  const { model, relief, environment } = store.state;
+  const own = files.has(model) || files.has(environment) || (model === 'relief' && files.has(relief));
   try {
     await navigator.clipboard.writeText(location.href);
     note(own ? 'Link copied, without your own file' : 'Link copied');
@@ -274,11 +301,12 @@ buildControls(store, {
   trace: () => path.traceCentre(),
   keepPicture: async () => comparePicture(await left.toBlob(), 'Kept picture'),
   comparePicture: (file) => comparePicture(file, file.name),
-  chooseReference: () => store.set({ ...reference.scene, compare: 'reference' }),
+  chooseReference: () => store.set({ ...reference.scene, technique: techniqueFor(reference.scene.model, store.state.technique), compare: 'reference' }),
 });
 store.subscribe((state, changed) => {
   showLeft(state);
   showComparison(state);
+  if (changed.has('technique')) showScale();
   if (!['orbit', 'target', 'wipe', 'theme', 'compare', 'resolved'].some((key) => changed.has(key) && changed.size <= 2)) path.clear();
   if (!addressTimer) addressTimer = setTimeout(keepAddress, 300); // browsers allow few changes a second
 });

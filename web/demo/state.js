@@ -11,10 +11,11 @@ export const techniques = [
   { id: 'oliveira', name: 'Oliveira & Brauwers', year: 2007, uses: ['ior', 'steps'], summary: 'Two refractions, the back side found by a search in its depth.' },
   { id: 'layered', name: 'Layered', year: 2014, uses: ['ior', 'layers', 'steps', 'events'], summary: 'Peeled layers searched for every refraction and total reflection.' },
   { id: 'exact', name: 'Exact', year: 2026, uses: ['ior', 'layers', 'steps', 'events'], summary: 'Layers that know their triangles, peeled once for a mesh: every meeting with the glass is where it is.' },
+  { id: 'heightfield', name: 'Height field', year: 2008, uses: ['ior', 'events'], summary: 'As exact, but a relief by its heights alone: no triangles, nothing peeled.' },
 ];
 
 /** Whether a technique peels layers from the eye, which can be shown. */
-export const peels = (id) => !['single', 'exact'].includes(id);
+export const peels = (id) => !['single', 'exact', 'heightfield'].includes(id);
 
 export const shapes = ['knot', 'sphere', 'torus', 'goblet', 'bottle', 'diamond'];
 
@@ -33,12 +34,32 @@ export const scenes = new Map([
     objects: [{ name: 'Tumbler', spec: 'tumbler', ior: 1.5 }, { name: 'Water', spec: 'water', ior: 1.333 }, { name: 'Backdrop', spec: 'plane:checker=24,scale=4,at=0,0,-3' }],
     state: { environment: 'studio', orbit: '10deg 76deg auto' },
   }],
+  ['relief', { title: 'Relief glass', name: 'Relief', picture: 'pictures/relief.png', state: { environment: 'sky', orbit: '-14deg 80deg auto' } }],
 ]);
+
+/** Built-in reliefs with their own depths, as `vitrine list` and vtReliefPatternDepth have them. */
+export const patterns = [
+  { id: 'ripples', name: 'Ripples', depth: 0.05 },
+  { id: 'hammered', name: 'Hammered', depth: 0.05 },
+  { id: 'fluted', name: 'Fluted', depth: 0.04 },
+  { id: 'lens-array', name: 'Lenses', depth: 0.06 },
+];
+
+/** What of the state says something to relief glass only. */
+export const reliefKeys = ['relief', 'depth', 'slab', 'smooth'];
+const depthOf = (relief) => patterns.find(({ id }) => id === relief)?.depth ?? 0.1;
+
+/** What choosing a relief sets; steps of 8 bits show in glass unless they are smoothed. @param {string} name of a file */
+export const reliefState = (relief, name = relief) => ({ relief, depth: depthOf(relief), smooth: /\.(hdr|pfm)$/i.test(name) ? 0 : 2 });
+
+/** `exact` draws models as `heightfield` does reliefs: one takes the place of the other, any other technique stays. */
+const usualTechnique = (model) => (model === 'relief' ? 'heightfield' : 'exact');
+export const techniqueFor = (model, technique) => (['exact', 'heightfield'].includes(technique) ? usualTechnique(model) : technique);
 
 /** The glass of a scene with the indices in force, in order. @returns {{name: string, ior: number}[]} */
 export function glassOf({ model, iors }) {
   const own = iors === '' ? [] : iors.split(',').map(Number);
-  const glass = scenes.get(model)?.objects.filter(({ ior }) => ior !== undefined) ?? [];
+  const glass = scenes.get(model)?.objects?.filter(({ ior }) => ior !== undefined) ?? [];
   return glass.map(({ name, ior }, i) => ({ name, ior: own[i] ?? ior }));
 }
 
@@ -46,7 +67,7 @@ export function glassOf({ model, iors }) {
 export function objectsOf(state) {
   const glass = glassOf(state);
   const write = ({ spec, ior }) => (ior === undefined ? spec : `${spec}${spec.includes(':') ? ',' : ':'}ior=${glass.shift().ior}`);
-  return scenes.get(state.model)?.objects.map(write).join('; ') ?? null;
+  return scenes.get(state.model)?.objects?.map(write).join('; ') ?? null;
 }
 
 export const environments = ['studio', 'sky', 'checker'];
@@ -68,12 +89,15 @@ export const reference = {
 };
 
 export const defaults = {
-  model: 'knot', environment: 'sky', backdrop: true,
+  model: 'knot', relief: 'ripples', depth: 0.05, slab: 0.1, smooth: 2, environment: 'sky', backdrop: true,
   technique: 'exact', compare: 'none', wipe: 50,
   ior: 1.5, iors: '', preset: 'medium', layers: 0, steps: 0, events: 0, quality: 'auto', // 0: as the preset says
   output: 'picture', layer: 0, exposure: 0, fov: 45, rotate: false,
   orbit: 'auto auto auto', target: 'auto auto auto', theme: 'auto',
 };
+
+/** Two of them follow what is shown. */
+const defaultsOf = ({ model, relief }) => ({ ...defaults, depth: depthOf(relief), technique: usualTechnique(model) });
 
 const ids = techniques.map(({ id }) => id);
 const oneOf = (values) => (text) => (values.includes(text) ? [text] : [null, `must be one of ${values.join(', ')}`]);
@@ -93,6 +117,7 @@ const words = (unit) => (text) => {
 };
 const readers = {
   model: (text) => oneOf([...shapes, ...scenes.keys(), ...extraModels.keys()])(text), environment: (text) => oneOf([...environments, ...extraEnvironments.keys()])(text), backdrop: flag,
+  relief: oneOf(patterns.map(({ id }) => id)), depth: number(0, 10), slab: number(0.001, 10), smooth: number(0, 64),
   technique: oneOf(ids), compare: oneOf(['none', 'reference', ...ids]), wipe: number(0, 100),
   ior: number(1, 4), iors: numbers(1, 4), preset: oneOf(presets), layers: number(0, 16, true), steps: number(0, 1000, true), events: number(0, 64, true), quality: oneOf(qualities),
   output: oneOf(outputs), layer: number(0, 15, true), exposure: number(-10, 10), fov: number(1, 170), rotate: flag,
@@ -117,13 +142,14 @@ export async function loadExtraModels() {
  * @param {string} search of the address @returns {{state: object, problems: string[]}}
  */
 export function readState(search) {
-  const state = { ...defaults, resolved: { layers: 8, steps: 256, events: 8 } }, problems = [];
+  const given = {}, problems = [];
   for (const [key, text] of new URLSearchParams(search)) {
     if (!Object.hasOwn(readers, key)) continue; // somebody else's
     const [value, problem] = readers[key](text);
     if (problem) problems.push(`${key} is '${text}'; it ${problem}`);
-    else state[key] = value;
+    else given[key] = value;
   }
+  const state = { ...defaultsOf({ ...defaults, ...given }), ...given, resolved: { layers: 8, steps: 256, events: 8 } };
   if (state.output.startsWith('layer') && !peels(state.technique)) state.technique = 'layered';
   return { state, problems };
 }
@@ -131,9 +157,9 @@ export function readState(search) {
 /** @returns {string} what readState makes the same state from; files of the visitor's own have no address */
 export function writeState(state) {
   const query = new URLSearchParams();
-  for (const [key, value] of Object.entries(defaults)) {
+  for (const [key, value] of Object.entries(defaultsOf(state))) {
     const now = state[key];
-    if (now === value) continue;
+    if (now === value || (reliefKeys.includes(key) && state.model !== 'relief')) continue;
     const text = typeof now === 'boolean' ? String(Number(now)) : String(now);
     if (readers[key](text)[1] === undefined) query.set(key, text);
   }

@@ -16,11 +16,13 @@
  * @property {string} description one sentence
  */
 
-/** Names that the core knows by itself; anything else in `src` or `environment-image` is a URL. */
+/** Names that the core knows by itself; anything else in `src`, `relief` or `environment-image` is a URL. */
 export const shapes = ['sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'cube', 'plane', 'tumbler', 'water'];
+/** Built-in reliefs, which `src` and `objects` know, too. */
+export const patterns = ['ripples', 'hammered', 'fluted', 'lens-array'];
 export const environments = ['studio', 'sky', 'checker'];
 
-const techniques = ['exact', 'layered', 'oliveira', 'wyman', 'single', 'kay-thickness', 'kay-nonlinear', 'kay-linear'];
+const techniques = ['exact', 'heightfield', 'layered', 'oliveira', 'wyman', 'single', 'kay-thickness', 'kay-nonlinear', 'kay-linear'];
 
 /** In vtPreset's order. */
 export const presets = ['low', 'medium', 'high'];
@@ -38,6 +40,10 @@ const ofPreset = { integer: true, defaultText: "the preset's" };
 /** @type {Attribute[]} */
 export const attributes = [
   string('src', `URL of a .glb or self-contained .gltf, or a built-in shape: ${shapes.join(', ')}.`),
+  string('relief', `In place of src: relief glass, a slab whose front is a height field: a built-in one, ${patterns.join(', ')}, or URL of a picture, black the lowest, white the highest; .hdr and .pfm hold more than 256 heights.`),
+  number('relief-depth', 0, 10, null, 'From black to white; the longer side is 2.', { defaultText: "0.1, a built-in relief's own" }),
+  number('relief-slab', 0.001, 10, 0.1, 'Thickness of the glass behind black.'),
+  number('relief-smooth', 0, 64, null, 'Samples that the heights are smoothed over.', { defaultText: '2 for pictures of 8 bits, else 0' }),
   string('objects', 'More objects, or all, between ; or line breaks: NAME or NAME:key=value,key=value, NAME as in src; the keys are those of --object, see `vitrine --help`.'),
   string('alt', 'What the picture shows, for those who cannot see it.'),
   string('poster', 'URL of a picture that stands until the first frame.'),
@@ -56,7 +62,7 @@ export const attributes = [
   boolean('disable-zoom', 'Wheel, pinch and + − keys do not change the distance.'),
   number('ior', 1, 4, null, 'Index of refraction of all glass.', { defaultText: "each object's own" }),
   oneOf('fresnel', ['on', 'off'], 'on: glass reflects where it refracts, by Fresnel; off: only where it must.'),
-  oneOf('technique', techniques, 'How the glass is computed; see `vitrine list`.'),
+  oneOf('technique', techniques, 'How the glass is computed; see `vitrine list`.', { default: null, defaultText: '`exact`; `heightfield` where there is a relief' }),
   oneOf('preset', presets, 'What layers, steps and max-events are where they are absent: less work for weak GPUs, more accuracy for strong ones.', { default: 'medium' }),
   number('layers', 1, 16, null, 'Depth layers peeled.', ofPreset),
   number('steps', 1, 1000, null, 'Search steps a segment.', ofPreset),

@@ -7,6 +7,8 @@ import { openInCore, placePicture } from './picture.js';
 const mostContexts = 12;
 
 const viewers = new Set(); // those with a context
+const numbers = new WeakMap(); // of a part's contents, by which the core knows them again
+let lastNumber = 0;
 let loading = null;
 
 /**
@@ -117,20 +119,33 @@ export class Viewer {
   }
 
   /**
-   * Settings of the glass (vtViewer_SetGlass); layers, steps and maxEvents null: as the preset says; ior null: each object's own.
+   * Settings of the glass (vtViewer_SetGlass); layers, steps and maxEvents null: as the preset says; ior null: each object's own; technique null: as the scene has it.
    * @returns {string} a sentence, or ''
    */
   setGlass({ technique, ior, preset, layers, steps, maxEvents, output, layer, exposure, transparent, samples, lessened, fresnel }) {
-    return this.attempt('SetGlass', technique, ior ?? 0, presets.indexOf(preset), layers ?? 0, steps ?? 0, maxEvents ?? 0, outputs.indexOf(output),
+    return this.attempt('SetGlass', technique ?? '', ior ?? 0, presets.indexOf(preset), layers ?? 0, steps ?? 0, maxEvents ?? 0, outputs.indexOf(output),
       layer, exposure, Number(transparent), samples, Number(lessened), Number(fresnel !== 'off'));
   }
 
   /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */
   attemptFile(name, source) {
     this.#core.GL.makeContextCurrent(this.#context);
-    const more = source.spec === undefined ? [] : [source.spec];
+    const more = source.spec === undefined ? [] : [source.spec, this.#numberOf(source.contents)];
     const open = (call, ...values) => this.attempt(call, ...values, source.name, ...more);
     return openInCore(this.#core, this.gl, name, source.contents, open) ?? `${source.name}: too large for the memory of this page`;
+  }
+
+  #numberOf(contents) {
+    if (!numbers.has(contents)) numbers.set(contents, ++lastNumber);
+    return numbers.get(contents);
+  }
+
+  /** Adds a part to the scene that was begun; heights that the core keeps are not put into its memory again. */
+  #add({ kind, name, contents, spec }) {
+    if (contents === null) return this.attempt('AddShape', name, spec);
+    const number = this.#numberOf(contents);
+    if (this.call('Keeps', spec, number)) return this.attempt('AddRelief', 0, 0, name, spec, number);
+    return this.attemptFile(kind === 'relief' ? 'AddRelief' : 'AddModel', { name, contents, spec });
   }
 
   /** Begins a scene of these parts; it is not shown yet. @param {import('./loading.js').Source[]} parts @returns {string} a sentence, or '' */
@@ -139,7 +154,7 @@ export class Viewer {
     this.call('Begin');
     for (const part of parts) {
       const first = this.call('ImageCount');
-      const problem = part.contents === null ? this.attempt('AddShape', part.name, part.spec) : this.attemptFile('AddModel', part);
+      const problem = this.#add(part);
       if (problem) return problem;
       for (let index = first; index < this.call('ImageCount'); ++index) {
         const place = this.call('ImageBytes', index);

@@ -1,6 +1,9 @@
 // The files of one element: fetched side by side, shown environment first, dropped where the wish has changed.
 import { Progress, builtIn, fetchSource } from './loading.js';
-import { decodePicture } from './picture.js';
+import { decodePicture, mayBePicture } from './picture.js';
+
+/** The part that was made from the same. */
+const findPart = (parts, { kind, url }) => parts.find((part) => part.kind === kind && part.url === url);
 
 export class Loader {
   /** Of the model that is loading, or came last. @type {Progress|null} */
@@ -32,9 +35,10 @@ export class Loader {
     this.abort();
     const { signal } = (this.#abort = new AbortController());
     const isNew = (kind) => wishes[kind].url !== '' && held[kind]?.url !== wishes[kind].url;
-    if (isNew('model')) this.progress = new Progress(this.#told.progress);
+    const parts = held.model?.parts ?? [];
+    if (isNew('model') && !wishes.model.parts.every((part) => findPart(parts, part))) this.progress = new Progress(this.#told.progress);
     const kinds = ['environment', 'model'].filter(isNew); // the first frame shall have the environment
-    const fetches = kinds.map((kind) => this.#fetch(kind, wishes[kind], signal));
+    const fetches = kinds.map((kind) => this.#fetch(kind, wishes[kind], parts, signal));
     for (const [i, kind] of kinds.entries()) {
       const source = await fetches[i];
       if (signal.aborted) return false;
@@ -44,9 +48,9 @@ export class Loader {
   }
 
   /** Null where it failed. */
-  async #fetch(kind, { url, parts }, signal) {
+  async #fetch(kind, { url, parts }, held, signal) {
     try {
-      if (kind === 'model') return { url, parts: await this.#fetchParts(parts, signal) };
+      if (kind === 'model') return { url, parts: await this.#fetchParts(parts, held, signal) };
       const source = await this.#fetchOne(kind, url, signal);
       if (source.contents !== null) source.contents = await decodePicture(source.contents);
       return source;
@@ -56,11 +60,21 @@ export class Loader {
     }
   }
 
-  /** What several parts have in common is fetched once. */
-  #fetchParts(parts, signal) {
+  /** What several parts have in common is fetched once; what is held, not at all. */
+  #fetchParts(parts, held, signal) {
     const files = new Map();
-    for (const { url } of parts) if (!files.has(url)) files.set(url, this.#fetchOne('model', url, signal));
-    return Promise.all(parts.map(async ({ url, spec }) => ({ ...(await files.get(url)), spec })));
+    const fileOf = (part) => {
+      const key = `${part.kind} ${part.url}`;
+      if (!files.has(key)) files.set(key, findPart(held, part) ?? this.#fetchPart(part, signal));
+      return files.get(key);
+    };
+    return Promise.all(parts.map(async (part) => ({ ...(await fileOf(part)), kind: part.kind, spec: part.spec })));
+  }
+
+  async #fetchPart({ kind, url }, signal) {
+    const source = await this.#fetchOne(kind, url, signal);
+    if (source.contents !== null && mayBePicture(source.contents)) source.contents = await decodePicture(source.contents);
+    return source;
   }
 
   async #fetchOne(kind, url, signal) {

@@ -1,5 +1,5 @@
 // Files over the network, with progress from the bytes that have come.
-import { environments, shapes } from './attributes.js';
+import { environments, patterns, shapes } from './attributes.js';
 
 /**
  * What an environment or a part of a scene is made from; kept, so that a restored context can have it again.
@@ -8,6 +8,7 @@ import { environments, shapes } from './attributes.js';
  * @property {string} name for sentences
  * @property {Uint8Array|ImageBitmap|null} contents
  * @property {string} [spec] of a part: name and keys as in the attribute `objects`; '': as it is
+ * @property {'model'|'relief'} [kind] of a part
  */
 
 /**
@@ -17,17 +18,31 @@ import { environments, shapes } from './attributes.js';
  * @property {Map<number, ImageBitmap>} [pictures] of the parts' materials, once they are decoded
  */
 
-/** What `src` and `objects` ask for; `url` tells one wish from another. @returns {{url: string, parts: {url: string, spec: string}[]}} */
-export function wishOf(src, objects) {
+/** Attributes about a relief as the keys of `objects`. */
+const reliefKeys = { reliefDepth: 'relief', reliefSlab: 'slab', reliefSmooth: 'smooth' };
+
+function reliefOf(values) {
+  const keys = Object.entries(reliefKeys).filter(([property]) => values[property] !== null).map(([property, key]) => `${key}=${values[property]}`);
+  return { kind: 'relief', url: values.relief, spec: `relief:${keys}` };
+}
+
+/**
+ * What `relief` or `src`, and `objects` ask for; `url` tells one wish from another.
+ * @param {object} values of the attributes
+ * @returns {{url: string, parts: {kind: 'model'|'relief', url: string, spec: string}[]}}
+ */
+export function wishOf({ src, objects, relief, ...more }) {
   const specs = objects.split(/[;\n]/).map((text) => text.trim().replace(/\s*([:=,])\s*/g, '$1')).filter(Boolean);
-  const parts = specs.map((spec) => ({ url: spec.replace(/:[^:/]*$/, ''), spec })); // URLs have a slash behind their last colon
-  if (src !== '') parts.unshift({ url: src, spec: '' });
-  return { url: specs.length === 0 ? src : [src, ...specs].join('\n'), parts };
+  const parts = specs.map((spec) => ({ kind: 'model', url: spec.replace(/:[^:/]*$/, ''), spec })); // URLs have a slash behind their last colon
+  if (relief !== '') parts.unshift(reliefOf({ relief, ...more }));
+  else if (src !== '') parts.unshift({ kind: 'model', url: src, spec: '' });
+  const first = relief === '' ? src : `${relief} ${parts[0].spec}`;
+  return { url: specs.length === 0 ? first : [first, ...specs].join('\n'), parts };
 }
 
 /** The built-in of that name, or null. @returns {Source|null} */
 export function builtIn(kind, url) {
-  const names = kind === 'model' ? shapes : environments;
+  const names = { model: [...shapes, ...patterns], relief: patterns, environment: environments }[kind];
   return names.includes(url) ? { url, name: url, contents: null } : null;
 }
 

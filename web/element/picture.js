@@ -1,6 +1,7 @@
-// PNG and JPEG, which the browser decodes; the core reads Radiance HDR only, and so is 12 KB smaller.
+// PNG and JPEG, which the browser decodes; the core reads Radiance HDR and PFM only, and so is 12 KB smaller.
 
 const largestTexture = 2048; // VT_MAX_ARRAY_SIDE
+const largestRelief = 4096; // VT_MAX_RELIEF_SIDE
 
 /**
  * What the core opens as environment: the decoded picture, or the bytes as they are where they hold none that the
@@ -12,6 +13,11 @@ export async function decodePicture(bytes) {
   if (bytes[0] === 0x23 && bytes[1] === 0x3f) return bytes; // "#?" of Radiance HDR
   const asInTheFile = { colorSpaceConversion: 'none', premultiplyAlpha: 'none' };
   return createImageBitmap(new Blob([bytes]), asInTheFile).catch(() => bytes);
+}
+
+/** Not where it begins as a .glb or .gltf does. @param {Uint8Array} bytes */
+export function mayBePicture([first, second]) {
+  return first !== 0x7b && !(first === 0x67 && second === 0x6c); // "{", "glTF"
 }
 
 /** As materials have them: no larger than the core keeps them. @returns {Promise<ImageBitmap|null>} null: not a picture */
@@ -28,14 +34,17 @@ export async function decodeTexture(bytes) {
  * Puts a file into the core's memory and opens it there.
  * @param core the compiled module
  * @param {WebGL2RenderingContext} gl
- * @param {string} name of the call of web/viewer.c, for bytes
+ * @param {string} name of the call of web/viewer.c, for bytes; that for pictures ends in Picture
  * @param {Uint8Array|ImageBitmap} contents
  * @param {(name: string, ...values: number[]) => unknown} open makes the call
  * @returns what `open` returns; null where memory is out
  */
 export function openInCore(core, gl, name, contents, open) {
   const isPicture = contents instanceof ImageBitmap;
-  const size = isPicture ? 4 * contents.width * contents.height : contents.length;
+  const { width, height } = contents;
+  const pictureName = name.replace(/[A-Z][a-z]+$/, 'Picture');
+  if (name.startsWith('Add') && Math.max(width, height) > largestRelief) return open(pictureName, 0, width, height); // refused without its pixels
+  const size = isPicture ? 4 * width * height : contents.length;
   const place = core._malloc(size || 1);
   if (place === 0) return null;
   if (!isPicture) {
@@ -43,7 +52,7 @@ export function openInCore(core, gl, name, contents, open) {
     return open(name, place, size);
   }
   readPicture(gl, contents, core.HEAPU8, place);
-  return open('OpenPicture', place, contents.width, contents.height);
+  return open(pictureName, place, width, height);
 }
 
 /** Copies a decoded picture into the core's memory. @returns {number} where; 0: memory is out */

@@ -27,7 +27,7 @@ export class Stage {
   orbit = new Orbit();
   quality = new Quality();
   /** Of Viewer.setGlass, for a full frame. */
-  glass = { technique: 'exact', ior: null, fresnel: 'on', preset: 'medium', layers: null, steps: null, maxEvents: null, output: 'picture', layer: 0, exposure: 0, transparent: true, samples: 64 };
+  glass = { technique: null, ior: null, fresnel: 'on', preset: 'medium', layers: null, steps: null, maxEvents: null, output: 'picture', layer: 0, exposure: 0, transparent: true, samples: 64 };
   /** Of the file, to look through; null: all of the scene is in view. */
   cameraIndex = null;
   /** @type {{model: import('./loading.js').Scene|null, environment: import('./loading.js').Source|null}} */
@@ -48,6 +48,7 @@ export class Stage {
   #busy = null; // the fence of the frame on the GPU
   #still = 0; // timer
   #framedFor = ''; // aspect and field of view
+  #refused = null; // the technique that the scene is too large for
   #drawn = {}; // detail of the last render-scale
 
   /** @param {HTMLElement} host holds a canvas @param {Told} told */
@@ -207,12 +208,14 @@ export class Stage {
         this.#decode(source, viewer.images);
         return;
       }
-      this.#applyGlass({ ...this.glass, technique: 'single', ior: null, output: 'picture' }); // which any scene has what it takes for
       problem ||= viewer.show(source.pictures ?? new Map());
-      if (!problem) this.#framedFor = '';
+      if (!problem) {
+        this.#framedFor = '';
+        this.#refused &&= {};
+      }
     }
     if (!problem) this.scene[kind] = source;
-    this.invalidate(); // after a failure too: the glass was changed above
+    this.invalidate();
     if (problem) this.#told.rejected(kind, problem);
     else if (isNew) this.#told.shown(kind);
   }
@@ -232,8 +235,18 @@ export class Stage {
     this.show('model', source);
   }
 
+  /** A technique that cannot have the scene is tried once; the scene's usual one stands in for it. */
   #applyGlass(glass, lessened = false) {
-    return this.#viewer.setGlass({ ...glass, lessened });
+    const viewer = this.#viewer;
+    const { technique } = glass;
+    if (technique !== this.#refused?.technique) {
+      const problem = viewer.setGlass({ ...glass, lessened });
+      const isRefused = problem && technique !== null && !viewer.setGlass({ ...glass, technique: null, lessened });
+      if (isRefused || this.#refused !== null) this.#told.warned('technique', isRefused ? problem : '');
+      this.#refused = isRefused ? { technique } : null;
+      return isRefused ? '' : problem;
+    }
+    return viewer.setGlass({ ...glass, technique: null, lessened });
   }
 
   #applyView() {

@@ -247,7 +247,7 @@ export class VitrineViewer extends HTMLElement {
     if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
     this.#updateSpin();
     stage.invalidate();
-    if (['src', 'objects', 'loading', 'environment-image', 'skybox-image'].some((name) => changed.has(name))) this.#load();
+    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'loading', 'environment-image', 'skybox-image'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */
@@ -299,7 +299,7 @@ export class VitrineViewer extends HTMLElement {
   }
 
   get #wish() {
-    return wishOf(this.#values.src, this.#values.objects);
+    return wishOf(this.#values);
   }
 
   #showProgress(value) {
@@ -343,7 +343,7 @@ export class VitrineViewer extends HTMLElement {
     this.#isLoaded = true;
     this.#loader.progress?.advance(1);
     this.#access.follow();
-    this.#dispatch('load', { url: this.#values.src });
+    this.#dispatch('load', { url: this.#values.relief || this.#values.src });
   }
 
   #moved(source) {

@@ -13,6 +13,7 @@ draw torus --samples 16 --resolution 112,112 --camera 0.9,2.3,2.6 --target 0,0,0
 scene() { "$vitrine" render "${@:2}" -t exact --preset high --environment studio --samples 64 --resolution 112,112 -o "$1.png"; }
 scene behind cube --object knot:at=0,0,-2 --camera 0.65,0.66,3.05 --target 0,0,-0.5 --fov 38
 scene tumbler tumbler --object water:ior=1.333 --object plane:checker=24,scale=4,at=0,0,-3 --camera 0.5,0.75,2.95 --target 0,0,0 --fov 45
+"$vitrine" render ripples --preset high --environment sky --samples 64 --resolution 112,112 --camera -0.81,0.58,3.24 --target 0,0,0 --fov 38 -o relief.png
 models=$(mktemp -d)
 trap 'rm -r "$models"' EXIT
 node ../models.mjs "$models" # the bunny needs `npm ci` in tests/
