@@ -185,9 +185,11 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .refract[vt_variantAny] = VT_LAYERED_ANY("layered", search_layered),
             .refract[vt_variantOpaque] = VT_LAYERED_OPAQUE("layered opaque", search_layered),
             .refract[vt_variantOrdered] = VT_LAYERED_ORDERED("layered ordered", search_layered),
+#ifdef VT_WITH_CELLS
             .refract[vt_variantCells] = VT_LAYERED_ANY("layered cells", search_cells),
             .refract[vt_variantCellsOpaque] = VT_LAYERED_OPAQUE("layered cells opaque", search_cells),
             .refract[vt_variantCellsOrdered] = VT_LAYERED_ORDERED("layered cells ordered", search_cells),
+#endif
         },
     [vt_techniqueExact] =
         {

@@ -23,7 +23,8 @@
 #include "../shaders_es3/constants.h" // VT_MAX_LAYERS and the other limits, shared with the shaders
 
 #ifndef __EMSCRIPTEN__
-#define VT_WITH_BVH ///< technique `bvh` and the counting of texture reads, for measurements
+#define VT_WITH_CELLS ///< vt_searchCells; web pages search in steps whatever vtFrame.search says
+#define VT_WITH_BVH   ///< technique `bvh` and the counting of texture reads, for measurements
 #endif
 
 #ifdef __cplusplus
