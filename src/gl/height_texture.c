@@ -1,8 +1,20 @@
 #include "gl/height_texture.h"
 
-void vtHeightTexture_Create(vtHeightTexture* texture, const vtGL* gl, const vtHeightField* field)
+#include "base/error.h"
+
+vtResult vtHeightTexture_Create(vtHeightTexture* texture, const vtGL* gl, const vtHeightField* field,
+                                vtError* error)
 {
-    *texture = (vtHeightTexture){.cell = field->cell};
+    *texture = (vtHeightTexture){0};
+    GLint largest = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (field->width > largest || field->height > largest) {
+        return vtFail(
+            error, vt_errorContext,
+            "scene: a relief of %d x %d samples is larger than this GPU's textures (%d); scale it down",
+            field->width, field->height, largest);
+    }
+    texture->cell = field->cell;
     vtTexture_Resize(&texture->heights, gl, GL_R32F, field->width, field->height, 0);
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, field->width, field->height, GL_RED, GL_FLOAT, field->z);
 
@@ -22,6 +34,7 @@ void vtHeightTexture_Create(vtHeightTexture* texture, const vtGL* gl, const vtHe
                           vtHeightField_TileRows(field, level), GL_RG, GL_FLOAT,
                           field->ranges + field->starts[level]);
     }
+    return vtSucceed(error);
 }
 
 void vtHeightTexture_Destroy(vtHeightTexture* texture, const vtGL* gl)

@@ -10,7 +10,9 @@ typedef struct vtHeightTexture {
     float cell;        ///< side of a cell, own units
 } vtHeightTexture;
 
-/// Uploads; *texture need not be initialised.
-void vtHeightTexture_Create(vtHeightTexture* texture, const vtGL* gl, const vtHeightField* field);
+/// Uploads; *texture need not be initialised. Fails with vt_errorContext where the GPU's textures are too
+/// small.
+vtResult vtHeightTexture_Create(vtHeightTexture* texture, const vtGL* gl, const vtHeightField* field,
+                                vtError* error);
 void vtHeightTexture_Destroy(vtHeightTexture* texture, const vtGL* gl);
 size_t vtHeightTexture_Bytes(const vtHeightTexture* texture);

@@ -202,7 +202,8 @@ static vtResult createBuffer(vtSceneBuffer* buffer, const vtGL* gl, const vtScen
     keepObjects(buffer, scene, placed, uses);
     buffer->heightsMesh = vtScene_Relief(scene);
     if (buffer->heightsMesh < scene->meshCount && result == vt_ok) {
-        vtHeightTexture_Create(&buffer->heights, gl, scene->meshes[buffer->heightsMesh].heights);
+        result =
+            vtHeightTexture_Create(&buffer->heights, gl, scene->meshes[buffer->heightsMesh].heights, error);
     }
     buffer->meshBytes += vtTexture_Bytes(&buffer->triangles);
     return result == vt_ok ? vtCheckGL(gl, "uploading the scene", error) : result;

@@ -1,4 +1,5 @@
-// Technique `heightfield`: against closed forms, against the reference tracer, and among other objects.
+// Reliefs by their heights, in technique `heightfield` and in the reference: closed forms, the reference on
+// triangles, scenes with other objects.
 #include <math.h>
 
 #include "base/math.h"
@@ -94,11 +95,29 @@ static vtFrame frameAt(vtVec3 eye, vtVec3 target, float fovY)
     return frame;
 }
 
-static void setMesh(Fixture* fixture, vtMesh* mesh)
+/// Directions by the technique, in the fixture, and by the reference on the same heights. Frees the mesh.
+static void drawAndTrace(Fixture* fixture, vtMesh* mesh, const vtFrame* frame, vtReferenceImage* traced)
 {
     vtError error;
-    assert_ok(vtRenderer_SetMesh(fixture->renderer, mesh, &error), error);
-    vtDestroyMesh(mesh);
+    vtScene scene;
+    vtReference* reference;
+    const vtMaterial material = vtDefaultMaterial();
+    assert_ok(vtCreateMeshScene(mesh, &material, &scene, &error), error);
+    assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
+    draw(fixture, frame);
+    assert_ok(vtCreateReference(&scene, &reference, &error), error);
+    assert_ok(vtReference_Trace(reference, &(vtReferenceDef){.frame = frame}, traced, &error), error);
+    assert_int_equal(scene.meshes[0].indexCount, 0);
+    vtDestroyReference(reference);
+    vtDestroyScene(&scene);
+}
+
+/// Both are within some degrees of what a pixel's direction must be.
+static void checkDirection(const Fixture* fixture, const vtReferenceImage* traced, int pixel, vtVec3 wanted,
+                           float degrees)
+{
+    assert_true(degreesBetween(wanted, vtMakeVec3(fixture->directions + 3 * pixel)) < degrees);
+    assert_true(degreesBetween(wanted, vtMakeVec3(traced->directions + 3 * pixel)) < degrees);
 }
 
 // Through two parallel faces light goes on as it came.
@@ -106,13 +125,13 @@ static void slabLeavesDirectionsAlone(void** state)
 {
     Fixture* fixture = *state;
     vtMesh mesh = makeRelief(flat, 17, 33, 0.0f, 0.3f);
-    setMesh(fixture, &mesh);
     const vtFrame frame = frameAt((vtVec3){0.2f, 0.1f, 2.0f}, (vtVec3){0.1f, 0.0f, 0.0f}, 15.0f);
-    draw(fixture, &frame);
+    vtReferenceImage traced;
+    drawAndTrace(fixture, &mesh, &frame, &traced);
     for (int i = 0; i < side * side; ++i) {
-        const vtVec3 wanted = eyeRay(&frame, i % side, i / side);
-        assert_true(degreesBetween(wanted, vtMakeVec3(fixture->directions + 3 * i)) < 0.002f);
+        checkDirection(fixture, &traced, i, eyeRay(&frame, i % side, i / side), 0.002f);
     }
+    vtDestroyReferenceImage(&traced);
 }
 
 // A wedge: two plane surfaces.
@@ -120,15 +139,16 @@ static void rampIsAPrism(void** state)
 {
     Fixture* fixture = *state;
     vtMesh mesh = makeRelief(ramp, 40, 40, 0.5f, 0.2f);
-    setMesh(fixture, &mesh);
     const vtFrame frame = frameAt((vtVec3){-0.3f, 0.2f, 3.0f}, (vtVec3){0.0f, 0.0f, 0.0f}, 12.0f);
-    draw(fixture, &frame);
+    vtReferenceImage traced;
+    drawAndTrace(fixture, &mesh, &frame, &traced);
     const vtVec3 N = vtNormalize((vtVec3){-0.25f, 0.0f, 1.0f});
     for (int i = 0; i < side * side; ++i) {
         const vtVec3 inner = refractRay(eyeRay(&frame, i % side, i / side), N, 1.0f / 1.5f);
         const vtVec3 wanted = refractRay(inner, (vtVec3){0.0f, 0.0f, 1.0f}, 1.5f);
-        assert_true(degreesBetween(wanted, vtMakeVec3(fixture->directions + 3 * i)) < 0.01f);
+        checkDirection(fixture, &traced, i, wanted, 0.01f);
     }
+    vtDestroyReferenceImage(&traced);
 }
 
 // A plano-convex paraboloid z = -r^2 / 2R seen along its axis from 100 before it: each ray leaves as the two
@@ -140,9 +160,9 @@ static void paraboloidFocuses(void** state)
     const float R = 4.0f, n = 1.5f;
     vtMesh mesh = makeRelief(lens, 201, 201, 1.0f, 0.3f);
     const float back = mesh.boundsMin.z;
-    setMesh(fixture, &mesh);
     const vtFrame frame = frameAt((vtVec3){0.0f, 0.0f, 100.0f}, (vtVec3){0.0f, 0.0f, 0.0f}, 1.0f);
-    draw(fixture, &frame);
+    vtReferenceImage traced;
+    drawAndTrace(fixture, &mesh, &frame, &traced);
     int axial = 0;
     for (int i = 0; i < side * side; ++i) {
         const vtVec3 ray = eyeRay(&frame, i % side, i / side);
@@ -156,7 +176,7 @@ static void paraboloidFocuses(void** state)
         const vtVec3 inner = refractRay(ray, N, 1.0f / n);
         const vtVec3 wanted = refractRay(inner, (vtVec3){0.0f, 0.0f, 1.0f}, n);
         const vtVec3 drawn = vtMakeVec3(fixture->directions + 3 * i);
-        assert_true(degreesBetween(wanted, drawn) < 0.01f);
+        checkDirection(fixture, &traced, i, wanted, 0.01f);
         const float r = hypotf(p.x, p.y);
         if (r > 0.1f && r < 0.25f) {
             // The drawn direction from where the ray leaves the back: how far behind it, it comes to the
@@ -170,6 +190,7 @@ static void paraboloidFocuses(void** state)
         }
     }
     assert_true(axial > 500);
+    vtDestroyReferenceImage(&traced);
 }
 
 // -------------------------------------------------------------------------------------------- the reference
