@@ -393,7 +393,9 @@ describe('reliefs', () => {
   test('what --verbose says', () => {
     const { error } = vitrine([...render('fluted', '--relief-size', '65'), '-o', 'x.png', '-v']);
     assert.match(error, /'fluted': relief of 65 x 65 samples, cell 0\.03125, z 0 to 0\.0[34]\d*, back at -0\.1, [\d.]+ MB of heights\n/);
-    assert.match(error, /relief of 65 x 65 samples: \d+ triangles\n/);
+    // By its heights, unless another technique is asked for.
+    assert.match(error, /, 0\.0 MB of mesh\n/);
+    assert.doesNotMatch(vitrine([...render('fluted'), '-t', 'exact', '-o', 'x.png', '-v']).error, /, 0\.0 MB of mesh\n/);
   });
 
   test('the same heights as PNG of 16 bits and as PFM', () => {
