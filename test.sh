@@ -21,6 +21,6 @@ cmake --preset asan >/dev/null
 cmake --build --preset asan
 
 echo "== tests, sanitizers"
-ctest --preset asan
+ctest --preset asan -j 2
 echo "== tests, release"
 ctest --preset release

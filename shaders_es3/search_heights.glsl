@@ -196,13 +196,15 @@ bool searchHeights(vec3 origin, vec3 direction, int object, bool inside, float f
         cell = clamp(next, ivec2(0), last);
         --tiles;
     }
-    if (inside && leave < farthest) {
-        bool isBack = leaves.z == leave;
-        uint wall = leaves.x == leave ? uint(isPositive.x) : 2u + uint(isPositive.y);
-        meeting = Meeting(leave, isBack ? BACK : WALLS + wall);
-        return !isBack || isPositive.z == 0; // through the box's top it must have met the front
+    if (!inside || leave >= farthest || tiles <= 0) {
+        return tiles > 0;
     }
-    return tiles > 0;
+    if (leaves.z == leave && isPositive.z == 1) {
+        return false; // on its way to the box's top it must have met the front
+    }
+    uint wall = leaves.x == leave ? uint(isPositive.x) : 2u + uint(isPositive.y);
+    meeting = Meeting(leave, leaves.z == leave ? BACK : WALLS + wall);
+    return true;
 }
 
 vec3 sampleNormal(ivec2 s, float cell)
