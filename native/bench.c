@@ -187,34 +187,32 @@ static vtResult runCases(const vtOptions* options, vtSession* session, vtBench* 
     }
 }
 
-typedef void WriteFcn(const vtBench* bench, FILE* out);
-
-static vtResult writeReport(const vtBench* bench, WriteFcn* write, const char* path, vtError* error)
+static void printTable(const void* bench, FILE* out)
 {
-    char* text = NULL;
-    size_t size = 0;
-    FILE* memory = open_memstream(&text, &size);
-    if (memory == NULL) {
-        return vtFail(error, vt_errorMemory, "bench: out of memory");
-    }
-    write(bench, memory);
-    fclose(memory);
-    vtResult result = vtWriteFile(path, text, size, error);
-    free(text);
-    return result;
+    vtBench_WriteTable(bench, out);
+}
+
+static void printJson(const void* bench, FILE* out)
+{
+    vtBench_WriteJson(bench, out);
+}
+
+static void printPlot(const void* bench, FILE* out)
+{
+    vtBench_WritePlot(bench, out);
 }
 
 static vtResult report(const vtOptions* options, const vtBench* bench, vtError* error)
 {
     vtResult result = vt_ok;
     if (options->table == NULL || options->json) {
-        result = writeReport(bench, options->json ? vtBench_WriteJson : vtBench_WriteTable, "-", error);
+        result = vtWritePrinted("-", options->json ? printJson : printTable, bench, error);
     }
     if (result == vt_ok && options->table != NULL) {
-        result = writeReport(bench, vtBench_WriteTable, options->table, error);
+        result = vtWritePrinted(options->table, printTable, bench, error);
     }
     if (result == vt_ok && options->plot != NULL) {
-        result = writeReport(bench, vtBench_WritePlot, options->plot, error);
+        result = vtWritePrinted(options->plot, printPlot, bench, error);
     }
     return result;
 }
@@ -294,7 +292,7 @@ vtResult vtRunBench(const vtOptions* given, vtError* error)
     if (sweep == vt_sweepRelief) {
         options.triangulates = false;
         options.technique = VT_RELIEF_TECHNIQUE ",exact";
-    } else if (isDefault && !vtSweepsObjects(sweep) && vtScene_Relief(scene) < scene->meshCount) {
+    } else if (isDefault && !vtSweepsObjects(sweep) && vtScene_HasRelief(scene)) {
         options.technique = VT_RELIEF_TECHNIQUE "," VT_BENCH_TECHNIQUES;
     }
     vtBench* bench = calloc(1, sizeof *bench);

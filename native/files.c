@@ -95,3 +95,18 @@ vtResult vtWriteFile(const char* path, const void* bytes, size_t size, vtError* 
     }
     return vtFail(error, vt_errorFile, "file '%s' cannot be written: %s", path, strerror(reason));
 }
+
+vtResult vtWritePrinted(const char* path, vtPrintFcn* print, const void* data, vtError* error)
+{
+    char* text = NULL;
+    size_t size = 0;
+    FILE* memory = open_memstream(&text, &size);
+    if (memory == NULL) {
+        return vtFail(error, vt_errorMemory, "file '%s': out of memory", path);
+    }
+    print(data, memory);
+    fclose(memory);
+    const vtResult result = vtWriteFile(path, text, size, error);
+    free(text);
+    return result;
+}

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <stdio.h>
+
 #include "vitrine.h"
 
 /// Reads a whole file ("-": standard input). Fails with vt_errorFile naming path and reason. *bytes is the
@@ -9,6 +11,10 @@ vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* er
 /// Writes a whole file ("-": standard output). The file appears complete or not at all: it is written
 /// beside its place and renamed, so that an older one stays where something fails.
 vtResult vtWriteFile(const char* path, const void* bytes, size_t size, vtError* error);
+
+/// Writes what `print` prints of `data` in the same way.
+typedef void vtPrintFcn(const void* data, FILE* out);
+vtResult vtWritePrinted(const char* path, vtPrintFcn* print, const void* data, vtError* error);
 
 /// A vtReadFileFcn for vtModelDef.
 bool vtReadFileForModel(const char* path, uint8_t** bytes, size_t* size, void* userData);

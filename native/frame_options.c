@@ -1,4 +1,5 @@
 // From the command line's settings to a frame.
+#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -34,6 +35,23 @@ static vtResult chooseView(const vtOptions* options, const vtScene* scene, float
     return vt_ok;
 }
 
+/// The place of an option's word among those it may be, NULL-terminated; goes on only where *result is vt_ok.
+static int chooseWord(const char* option, const char* given, const char* const* words, vtResult* result,
+                      vtError* error)
+{
+    int chosen = 0;
+    char list[96] = "";
+    while (words[chosen] != NULL && strcmp(words[chosen], given) != 0) {
+        const char* before = chosen == 0 ? "" : words[chosen + 1] != NULL ? ", " : " or ";
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", before, words[chosen++]);
+    }
+    if (*result == vt_ok && words[chosen] == NULL) {
+        *result = vtFail(error, vt_errorArgument, "--%s is '%s'; it must be %s", option, given, list);
+    }
+    return chosen;
+}
+
 vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* frame, vtError* error)
 {
     *frame = vtDefaultFrame();
@@ -57,21 +75,6 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->layerSize = options->layerSize;
     frame->cubeSize = options->cubeSize;
     frame->topLevel = options->topLevel;
-    bool fromEye = strcmp(options->layerSource, "eye") == 0;
-    if (!fromEye && strcmp(options->layerSource, "cube") != 0) {
-        return vtFail(error, vt_errorArgument, "--layer-source is '%s'; it must be cube or eye",
-                      options->layerSource);
-    }
-    int preset = 0;
-    while (preset < vt_presetCount && strcmp(options->preset, vtPresetName(preset)) != 0) {
-        ++preset;
-    }
-    if (preset == vt_presetCount) {
-        return vtFail(error, vt_errorArgument, "--preset is '%s'; it must be low, medium or high",
-                      options->preset);
-    }
-    frame->preset = (vtPreset)preset;
-    frame->layerSource = fromEye ? vt_layersFromEye : vt_layersFromCube;
     frame->exposure = options->exposure;
     frame->samples = isReference ? 1 : options->samples; // the reference takes more
     frame->transmittance = options->transmittance;
@@ -79,25 +82,26 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->minTransmittance = options->minTransmittance;
     frame->power = options->power;
     frame->wallThickness = options->wallThickness;
-    bool farthest = strcmp(options->backSurface, "farthest") == 0;
-    if (!farthest && strcmp(options->backSurface, "second") != 0) {
-        return vtFail(error, vt_errorArgument, "--back-surface is '%s'; it must be second or farthest",
-                      options->backSurface);
+    const char* presets[vt_presetCount + 1];
+    for (int i = 0; i <= vt_presetCount; ++i) {
+        presets[i] = vtPresetName(i);
     }
-    frame->backSurface = farthest ? vt_backFarthest : vt_backSecond;
-
-    bool ordered = strcmp(options->multi, "ordered") == 0;
-    if (!ordered && strcmp(options->multi, "any") != 0) {
-        return vtFail(error, vt_errorArgument, "--multi is '%s'; it must be any or ordered", options->multi);
+    static const char* const sources[] = {"cube", "eye", NULL};
+    static const char *const backs[] = {"second", "farthest", NULL}, *const orders[] = {"any", "ordered",
+                                                                                        NULL};
+    static const char* const searches[] = {"steps", "cells", NULL};
+    vtResult result = vt_ok;
+    frame->layerSource =
+        (vtLayerSource)chooseWord("layer-source", options->layerSource, sources, &result, error);
+    frame->preset = (vtPreset)chooseWord("preset", options->preset, presets, &result, error);
+    frame->backSurface =
+        (vtBackSurface)chooseWord("back-surface", options->backSurface, backs, &result, error);
+    frame->multi = (vtMulti)chooseWord("multi", options->multi, orders, &result, error);
+    frame->search = (vtSearch)chooseWord("search", options->search, searches, &result, error);
+    if (result != vt_ok) {
+        return result;
     }
-    frame->multi = ordered ? vt_multiOrdered : vt_multiAny;
-    bool cells = strcmp(options->search, "cells") == 0;
-    if (!cells && strcmp(options->search, "steps") != 0) {
-        return vtFail(error, vt_errorArgument, "--search is '%s'; it must be steps or cells",
-                      options->search);
-    }
-    frame->search = cells ? vt_searchCells : vt_searchSteps;
     const float aspect = (float)frame->width / (float)frame->height;
-    const vtResult result = chooseView(options, &input->scene, aspect, &frame->view, error);
+    result = chooseView(options, &input->scene, aspect, &frame->view, error);
     return result == vt_ok ? vtValidateFrame(frame, error) : result;
 }

@@ -126,8 +126,19 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
     return result;
 }
 
-static void printTable(FILE* out, const vtOptions* options, const vtSession* session, const Ladder* ladder)
+/// What the table is made of.
+typedef struct Table {
+    const vtOptions* options;
+    const vtSession* session;
+    const Ladder* ladder;
+} Table;
+
+static void printTable(const void* data, FILE* out)
 {
+    const Table* table = data;
+    const vtOptions* options = table->options;
+    const vtSession* session = table->session;
+    const Ladder* ladder = table->ladder;
     const vtFrame* frame = &ladder->frames[0];
     const float ior = vtCommonIor(&session->input);
     char models[1024], index[48] = "indices of their own";
@@ -199,22 +210,6 @@ static vtResult writeSheet(const char* path, const Ladder* ladder, vtError* erro
     return result;
 }
 
-static vtResult writeTable(const vtOptions* options, const vtSession* session, const Ladder* ladder,
-                           vtError* error)
-{
-    char* text = NULL;
-    size_t size = 0;
-    FILE* memory = open_memstream(&text, &size);
-    if (memory == NULL) {
-        return vtFail(error, vt_errorMemory, "table: out of memory");
-    }
-    printTable(memory, options, session, ladder);
-    fclose(memory);
-    vtResult result = vtWriteFile(options->table != NULL ? options->table : "-", text, size, error);
-    free(text);
-    return result;
-}
-
 vtResult vtRunLadder(const vtOptions* given, vtError* error)
 {
     vtOptions options = *given;
@@ -231,14 +226,15 @@ vtResult vtRunLadder(const vtOptions* given, vtError* error)
     if (result == vt_ok) {
         frame.fresnel = false; // strict paths, as the reference's; options.fresnel is false here, too
         const vtScene* scene = &session.input.scene;
-        nameRungs(&frame, vtScene_Relief(scene) < scene->meshCount, ladder);
+        nameRungs(&frame, vtScene_HasRelief(scene), ladder);
         result = measure(&options, &session, ladder, error);
     }
     if (result == vt_ok && options.output != NULL) {
         result = writeSheet(options.output, ladder, error);
     }
     if (result == vt_ok && (options.table != NULL || options.output == NULL)) {
-        result = writeTable(&options, &session, ladder, error);
+        result = vtWritePrinted(options.table != NULL ? options.table : "-", printTable,
+                                &(Table){&options, &session, ladder}, error);
     }
     for (int i = 0; ladder != NULL && i < ladder->count; ++i) {
         free(ladder->rungs[i].pixels);

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "bench.h"
 #include "commands.h"
+#include "files.h"
 #include "load.h"
 
 /// The direct method's own ratio where it comes from (Weng): 1.4 s before, 1.5 s with it.
@@ -25,6 +27,12 @@ static const char* const wayNames[vt_rayWays] = {
 static const char* const wayKeys[vt_rayWays] = {"heights",       "primitive",    "single",
                                                 "packets",       "withoutTiles", "withoutCells",
                                                 "withoutShadow", "withoutBox"};
+
+/// What is printed.
+typedef struct Report {
+    const char* model;
+    const vtRayFigures* figures;
+} Report;
 
 static double mebibytes(size_t bytes)
 {
@@ -47,15 +55,17 @@ static size_t bytesOf(const vtRayFigures* figures, int way)
     return isTriangles(way) ? figures->meshBytes + figures->embreeBytes : figures->heightsBytes;
 }
 
-static void writeTable(const vtRayFigures* figures, const char* model, FILE* out)
+static void writeTable(const void* data, FILE* out)
 {
+    const Report* report = data;
+    const vtRayFigures* figures = report->figures;
     fprintf(
         out,
         "`%s`, %d x %d samples, %zu triangles; one processor, its time; medians of %d rounds in turns. A "
         "million "
         "rays each: of a camera, and random ones from all around. Times a ray are beside single rays against "
         "triangles = 1.\n\n",
-        model, figures->width, figures->height, figures->triangles, figures->rounds);
+        report->model, figures->width, figures->height, figures->triangles, figures->rounds);
     fprintf(
         out,
         "| way | build | memory | camera, million rays a second | time a ray | random | time a ray | build + "
@@ -82,15 +92,15 @@ static void writeTable(const vtRayFigures* figures, const char* model, FILE* out
         sourceRatio, ours, all);
 }
 
-static void writeJson(const vtRayFigures* figures, const char* model, FILE* out)
+static void writeJson(const void* data, FILE* out)
 {
-    fprintf(out, "{\"model\": \"");
-    for (const char* c = model; *c != '\0'; ++c) {
-        fprintf(out, *c == '"' || *c == '\\' ? "\\%c" : "%c", *c);
-    }
+    const Report* report = data;
+    const vtRayFigures* figures = report->figures;
+    fprintf(out, "{");
+    vtWriteJsonText("model", report->model, out);
     fprintf(
         out,
-        "\", \"width\": %d, \"height\": %d, \"triangles\": %zu, \"rounds\": %d, \"rays\": %d,\n "
+        " \"width\": %d, \"height\": %d, \"triangles\": %zu, \"rounds\": %d, \"rays\": %d,\n "
         "\"buildHeights\": "
         "%.3f, \"makeTriangles\": %.3f, \"buildTriangles\": %.3f,\n \"heightsBytes\": %zu, \"meshBytes\": "
         "%zu, "
@@ -107,24 +117,14 @@ static void writeJson(const vtRayFigures* figures, const char* model, FILE* out)
     fprintf(out, "}}\n");
 }
 
-static vtResult report(const vtOptions* options, const vtRayFigures* figures, vtError* error)
+static vtResult writeReport(const vtOptions* options, const vtRayFigures* figures, vtError* error)
 {
-    const bool toFile = options->table != NULL && strcmp(options->table, "-") != 0;
-    if (options->json) {
-        writeJson(figures, options->model, stdout);
+    const Report report = {options->model, figures};
+    vtResult result = options->json ? vtWritePrinted("-", writeJson, &report, error) : vt_ok;
+    if (result == vt_ok && (options->table != NULL || !options->json)) {
+        result = vtWritePrinted(options->table != NULL ? options->table : "-", writeTable, &report, error);
     }
-    if (options->table != NULL || !options->json) {
-        FILE* out = toFile ? fopen(options->table, "w") : stdout;
-        if (out == NULL) {
-            return vtFail(error, vt_errorFile, "--table '%s' cannot be written", options->table);
-        }
-        writeTable(figures, options->model, out);
-        if (toFile && fclose(out) != 0) {
-            return vtFail(error, vt_errorFile, "--table '%s' cannot be written, the disk may be full",
-                          options->table);
-        }
-    }
-    return vtSucceed(error);
+    return result == vt_ok ? vtSucceed(error) : result;
 }
 
 vtResult vtRunRays(const vtOptions* given, vtError* error)
@@ -149,7 +149,7 @@ vtResult vtRunRays(const vtOptions* given, vtError* error)
     if (result == vt_ok) {
         vtRayFigures figures;
         result = vtMeasureRays(mesh, &frame.view, options.rounds > 0 ? options.rounds : 5, &figures, error);
-        result = result == vt_ok ? report(&options, &figures, error) : result;
+        result = result == vt_ok ? writeReport(&options, &figures, error) : result;
     }
     vtDestroyInput(&input);
     return result;

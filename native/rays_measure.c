@@ -149,21 +149,6 @@ static bool traceHeights(const vtHeightField* field, const Ray* ray, unsigned se
     return vtHeightField_Trace(field, ray->origin, ray->direction, 0.0f, INFINITY, 3, separations, hit);
 }
 
-static struct RTCRayHit traceSingle(RTCScene scene, struct RTCIntersectContext* context, const Ray* ray)
-{
-    struct RTCRayHit query = {.ray = {.org_x = ray->origin.x,
-                                      .org_y = ray->origin.y,
-                                      .org_z = ray->origin.z,
-                                      .dir_x = ray->direction.x,
-                                      .dir_y = ray->direction.y,
-                                      .dir_z = ray->direction.z,
-                                      .tfar = INFINITY,
-                                      .mask = ~0u},
-                              .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-    rtcIntersect1(scene, context, &query);
-    return query;
-}
-
 static size_t tracePacket(RTCScene scene, struct RTCIntersectContext* context, const Ray* rays)
 {
     static const _Alignas(32) int valid[VT_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
@@ -230,7 +215,8 @@ static double timeWay(const Built* built, vtRaySet set, vtRayWay way, size_t* hi
         }
         if (way == vt_waySingle || way == vt_wayPrimitive) {
             const RTCScene scene = way == vt_waySingle ? built->triangles : built->primitive;
-            found += traceSingle(scene, &context, &rays[i]).hit.geomID != RTC_INVALID_GEOMETRY_ID;
+            found += vtTraceRay(scene, &context, rays[i].origin, rays[i].direction).hit.geomID !=
+                     RTC_INVALID_GEOMETRY_ID;
         } else {
             found += traceHeights(field, &rays[i], separations[way], &hit);
         }
@@ -248,7 +234,7 @@ static size_t countDiffering(const Built* built, vtRaySet set)
     size_t differing = 0;
     for (int i = 0; i < vt_rayCount; ++i) {
         const Ray* ray = &built->rays[set][i];
-        const struct RTCRayHit truth = traceSingle(built->triangles, &context, ray);
+        const struct RTCRayHit truth = vtTraceRay(built->triangles, &context, ray->origin, ray->direction);
         vtHeightHit hit;
         const bool meets = traceHeights(built->mesh.heights, ray, vt_separateAll, &hit);
         const bool should = truth.hit.geomID != RTC_INVALID_GEOMETRY_ID;

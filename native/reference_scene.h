@@ -88,6 +88,23 @@ bool vtFillReliefScene(RTCDevice device, RTCScene scene, const vtHeightField* fi
 void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths, const uint32_t* numbers,
                       int count, bool coherent, vtMeeting* meetings);
 
+/// One ray at the meshes of a scene of Embree's.
+static inline struct RTCRayHit vtTraceRay(RTCScene scene, struct RTCIntersectContext* context, vtVec3 origin,
+                                          vtVec3 direction)
+{
+    struct RTCRayHit query = {.ray = {.org_x = origin.x,
+                                      .org_y = origin.y,
+                                      .org_z = origin.z,
+                                      .dir_x = direction.x,
+                                      .dir_y = direction.y,
+                                      .dir_z = direction.z,
+                                      .tfar = INFINITY,
+                                      .mask = ~0u},
+                              .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+    rtcIntersect1(scene, context, &query);
+    return query;
+}
+
 /// Empties the list, with room for paths kept. A zeroed list is empty.
 static inline void vtPathList_Clear(vtPathList* list)
 {

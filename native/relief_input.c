@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "scene/height_field.h"
+#include "scene/objects.h"
 #include "scene/relief.h"
 
 vtReliefDef vtMakeReliefDef(const vtOptions* options, const vtObjectSpec* spec, int pattern)
@@ -87,9 +87,5 @@ vtResult vtLoadReliefFile(const char* name, const void* bytes, size_t size, cons
 
 const char* vtChooseTechnique(const vtOptions* options, const vtScene* scene)
 {
-    bool hasRelief = false;
-    for (uint32_t i = 0; i < scene->meshCount; ++i) {
-        hasRelief = hasRelief || scene->meshes[i].heights != NULL;
-    }
-    return hasRelief && !options->hasTechnique ? VT_RELIEF_TECHNIQUE : options->technique;
+    return vtScene_HasRelief(scene) && !options->hasTechnique ? VT_RELIEF_TECHNIQUE : options->technique;
 }

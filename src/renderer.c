@@ -140,16 +140,8 @@ vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError
 
 vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error)
 {
-    vtMesh borrowed = *mesh;
-    vtMaterial material = vtDefaultMaterial();
-    vtObject object = {.toWorld = vtIdentityTransform()};
-    const vtScene scene = {.meshes = &borrowed,
-                           .materials = &material,
-                           .objects = &object,
-                           .meshCount = 1,
-                           .materialCount = 1,
-                           .objectCount = 1};
-    return vtRenderer_SetScene(renderer, &scene, error);
+    vtBorrowedMesh borrowed;
+    return vtRenderer_SetScene(renderer, vtBorrowMesh(mesh, &borrowed), error);
 }
 
 vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error)

@@ -251,6 +251,15 @@ describe('the element', { skip }, () => {
     return PNG.sync.read(Buffer.from(url.split(',')[1], 'base64'));
   }
 
+  /** What the one element shows after changes of its properties. */
+  async function shown(page, changes) {
+    await page.evaluate((values) => Object.assign(a, values), changes);
+    await page.waitForFunction(() => a.loaded);
+    await settle(page);
+    assert.equal(await message(page), '');
+    return picture(page);
+  }
+
   function nativePicture(...args) {
     const result = spawnSync(binary, ['render', ...args, '-o', 'native.png', '--resolution', '256,256'],
       { cwd: folder, env: { ...process.env, ASAN_OPTIONS: 'detect_leaks=0' } });
@@ -494,13 +503,7 @@ describe('the element', { skip }, () => {
   test('several objects, each of its own index', async (t) => {
     requests.length = 0;
     const page = await open(t, '<vitrine-viewer id="a" skybox-image environment-image="checker" objects="sphere:at=-1.2,0,0, ior = 1.2; sphere:at=1.2,0,0;"></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>', { allowed: /404/ });
-    const show = async (changes) => {
-      await page.evaluate((values) => Object.assign(a, values), changes);
-      await page.waitForFunction(() => a.loaded);
-      await settle(page);
-      assert.equal(await message(page), '');
-      return picture(page);
-    };
+    const show = (changes) => shown(page, changes);
     const part = (image, from, to) => {
       const half = new PNG({ width: to - from, height: image.height });
       PNG.bitblt(image, half, from, 0, to - from, image.height, 0, 0);
@@ -591,13 +594,7 @@ describe('the element', { skip }, () => {
   test('relief glass of patterns and pictures', async (t) => {
     requests.length = 0;
     const page = await open(t, '<vitrine-viewer id="a" relief="hammered" relief-depth="0.06" src="/good.glb" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>', { allowed: /404/ });
-    const show = async (changes) => {
-      await page.evaluate((values) => Object.assign(a, values), changes);
-      await page.waitForFunction(() => a.loaded);
-      await settle(page);
-      assert.equal(await message(page), '');
-      return picture(page);
-    };
+    const show = (changes) => shown(page, changes);
     const draws = async (name, seen, ...args) => {
       const differing = difference(seen, nativePicture(...args));
       t.diagnostic(`${name}: ${differing.toFixed(4)} % differ`);

@@ -120,9 +120,8 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_SetImage(vtViewer* viewer, int index, uint8_t
 /// its heights, so that no triangles are made before a technique asks for them.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Show(vtViewer* viewer)
 {
-    const vtTechnique technique = vtScene_Relief(&viewer->next) < viewer->next.meshCount
-                                      ? vt_techniqueHeightField
-                                      : viewer->frame.technique;
+    const vtTechnique technique =
+        vtScene_HasRelief(&viewer->next) ? vt_techniqueHeightField : viewer->frame.technique;
     vtResult result = vtPrepareScene(&viewer->next, technique, NULL, &viewer->error);
     if (result == vt_ok) {
         result = vtRenderer_SetScene(viewer->renderer, &viewer->next, &viewer->error);
@@ -173,8 +172,7 @@ vtResult vtViewer_PrepareScene(vtViewer* viewer, vtTechnique technique)
 
 vtTechnique vtViewer_UsualTechnique(const vtViewer* viewer)
 {
-    return vtScene_Relief(&viewer->scene) < viewer->scene.meshCount ? vt_techniqueHeightField
-                                                                    : vt_techniqueExact;
+    return vtScene_HasRelief(&viewer->scene) ? vt_techniqueHeightField : vt_techniqueExact;
 }
 
 /// A scene of one shape.

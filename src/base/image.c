@@ -266,10 +266,10 @@ bool vtIsPicture(const void* bytes, size_t size)
     return vtIsPfm(bytes, size);
 }
 
-vtResult vtCheckHeightSides(const char* name, long width, long height, vtError* error)
+vtResult vtCheckHeightSides(const char* name, long width, long height, vtResult failure, vtError* error)
 {
     if (width < 2 || height < 2 || width > VT_MAX_RELIEF_SIDE || height > VT_MAX_RELIEF_SIDE) {
-        return vtFail(error, vt_errorFormat,
+        return vtFail(error, failure,
                       "relief '%.300s' is %ld x %ld samples, but a side must be 2 to %d; scale it", name,
                       width, height, VT_MAX_RELIEF_SIDE);
     }
@@ -352,7 +352,7 @@ vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float
     if (!stbi_info_from_memory(bytes, length, &columns, &rows, &channels)) {
         return failDecode(name, error);
     }
-    if (vtCheckHeightSides(name, columns, rows, error) != vt_ok) {
+    if (vtCheckHeightSides(name, columns, rows, vt_errorFormat, error) != vt_ok) {
         return vt_errorFormat;
     }
     *heights = isHdr ? loadHdrHeights(bytes, length, width, height)

@@ -55,8 +55,9 @@ vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float
 vtResult vtDecodePfmHeights(const void* bytes, size_t size, const char* name, float** heights, int* width,
                             int* height, vtError* error);
 
-/// Sentences about sides: of a relief's samples, of a picture that is written.
-vtResult vtCheckHeightSides(const char* name, long width, long height, vtError* error);
+/// Sentences about sides: of a relief's samples, with that result where they fail; of a picture that is
+/// written.
+vtResult vtCheckHeightSides(const char* name, long width, long height, vtResult failure, vtError* error);
 vtResult vtCheckWritten(int width, int height, vtError* error);
 
 /// Of Rec. 709; grey stays what it is, to the last bit.

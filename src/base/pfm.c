@@ -184,7 +184,7 @@ vtResult vtDecodePfmHeights(const void* bytes, size_t size, const char* name, fl
     Header header;
     vtResult result = readHeader(bytes, size, name, &header, error);
     if (result == vt_ok) {
-        result = vtCheckHeightSides(name, header.columns, header.rows, error);
+        result = vtCheckHeightSides(name, header.columns, header.rows, vt_errorFormat, error);
     }
     if (result == vt_ok) {
         result = readPixels(bytes, size, name, &header, 1, heights, error);

@@ -135,16 +135,8 @@ vtView vtFrameScene(const vtScene* scene, float fovY, float aspect)
 
 vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect)
 {
-    vtMaterial material = vtDefaultMaterial();
-    vtMesh borrowed = *mesh;
-    vtObject object = {.toWorld = vtIdentityTransform()};
-    const vtScene scene = {.meshes = &borrowed,
-                           .meshCount = 1,
-                           .materials = &material,
-                           .materialCount = 1,
-                           .objects = &object,
-                           .objectCount = 1};
-    return vtFrameScene(&scene, fovY, aspect);
+    vtBorrowedMesh borrowed;
+    return vtFrameScene(vtBorrowMesh(mesh, &borrowed), fovY, aspect);
 }
 
 vtView vtView_Orbit(vtView view, float yaw, float pitch)

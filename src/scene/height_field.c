@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/image.h"
 #include "base/math.h"
 
 /// The relief's longer side.
@@ -33,11 +34,8 @@ static int powerOfTwo(int least)
 
 static vtResult checkDef(const vtReliefDef* def, const char* name, vtError* error)
 {
-    if (def->width < 2 || def->height < 2 || def->width > VT_MAX_RELIEF_SIDE ||
-        def->height > VT_MAX_RELIEF_SIDE) {
-        return vtFail(error, vt_errorGeometry,
-                      "relief '%.300s' is %d x %d samples, but a side must be 2 to %d; scale it", name,
-                      def->width, def->height, VT_MAX_RELIEF_SIDE);
+    if (vtCheckHeightSides(name, def->width, def->height, vt_errorGeometry, error) != vt_ok) {
+        return vt_errorGeometry;
     }
     // Written so that NaN fails.
     if (!(def->depth >= 0.0f && def->depth <= 10.0f)) {

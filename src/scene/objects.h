@@ -3,6 +3,29 @@
 
 #include "vitrine.h"
 
+/// A scene of one object of glass of index 1.5 that borrows its mesh: it lives as long as that, and is not to
+/// be destroyed.
+typedef struct vtBorrowedMesh {
+    vtMesh mesh;
+    vtMaterial material;
+    vtObject object;
+    vtScene scene;
+} vtBorrowedMesh;
+
+static inline const vtScene* vtBorrowMesh(const vtMesh* mesh, vtBorrowedMesh* borrowed)
+{
+    borrowed->mesh = *mesh;
+    borrowed->material = vtDefaultMaterial();
+    borrowed->object = (vtObject){.toWorld = vtIdentityTransform()};
+    borrowed->scene = (vtScene){.meshes = &borrowed->mesh,
+                                .materials = &borrowed->material,
+                                .objects = &borrowed->object,
+                                .meshCount = 1,
+                                .materialCount = 1,
+                                .objectCount = 1};
+    return &borrowed->scene;
+}
+
 typedef struct vtPlacedObject {
     const vtMesh* mesh;
     const vtMaterial* material;
@@ -22,6 +45,11 @@ vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t*
 /// The first mesh that is a relief and glass, the one that technique `heightfield` draws by its heights;
 /// meshCount: there is none.
 uint32_t vtScene_Relief(const vtScene* scene);
+
+static inline bool vtScene_HasRelief(const vtScene* scene)
+{
+    return vtScene_Relief(scene) < scene->meshCount;
+}
 
 /// Does the object's mesh, which is closed, contain the point (world)?
 bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point);

@@ -63,7 +63,7 @@ vtResult vtCreateReliefOfPixels(const uint8_t* pixels, int width, int height, co
     assert(def != NULL && mesh != NULL);
     *mesh = (vtMesh){0};
     name = name != NULL ? name : "unnamed";
-    vtResult result = vtCheckHeightSides(name, width, height, error);
+    vtResult result = vtCheckHeightSides(name, width, height, vt_errorFormat, error);
     if (result != vt_ok) {
         return result;
     }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "context.h"
+#include "reference.h"
+#include "scene/objects.h"
 #include "testing.h"
 
 enum { side = 128 };
@@ -61,6 +63,38 @@ static inline vtFrame smallFrame(vtTechnique technique)
     return frame;
 }
 
+/// False, and it says so, where nothing can be traced for want of Embree.
+static inline bool canTrace(const vtScene* scene, const vtFrame* frame, vtReferenceImage* truth)
+{
+    vtReference* reference;
+    vtError error;
+    if (vtCreateReference(scene, &reference, &error) != vt_ok) {
+        print_message("skipped: %s\n", error.message);
+        return false;
+    }
+    assert_ok(vtReference_Trace(reference, &(vtReferenceDef){.frame = frame}, truth, &error), error);
+    vtDestroyReference(reference);
+    return true;
+}
+
+/// Traces a scene, or one mesh of glass; without Embree the test is skipped, the scene or mesh freed.
+static inline void traceScene(vtScene* scene, const vtFrame* frame, vtReferenceImage* truth)
+{
+    if (!canTrace(scene, frame, truth)) {
+        vtDestroyScene(scene);
+        skip();
+    }
+}
+
+static inline void traceMesh(vtMesh* mesh, const vtFrame* frame, vtReferenceImage* truth)
+{
+    vtBorrowedMesh borrowed;
+    if (!canTrace(vtBorrowMesh(mesh, &borrowed), frame, truth)) {
+        vtDestroyMesh(mesh);
+        skip();
+    }
+}
+
 /// Draws and reads both the picture and the directions.
 static inline void draw(Fixture* fixture, const vtFrame* frame)
 {
@@ -68,4 +102,18 @@ static inline void draw(Fixture* fixture, const vtFrame* frame)
     assert_true(frame->width * frame->height <= side * side);
     assert_ok(vtRenderer_DrawImage(fixture->renderer, frame, fixture->pixels, &error), error);
     assert_ok(vtRenderer_ReadDirections(fixture->renderer, fixture->directions, &error), error);
+}
+
+/// With one object in the scene --multi ordered draws what any does.
+static inline void assertOrderedIsAny(Fixture* fixture, vtFrame frame)
+{
+    static uint8_t pixels[sizeof fixture->pixels];
+    static float directions[sizeof fixture->directions / sizeof(float)];
+    draw(fixture, &frame);
+    memcpy(pixels, fixture->pixels, sizeof pixels);
+    memcpy(directions, fixture->directions, sizeof directions);
+    frame.multi = vt_multiOrdered;
+    draw(fixture, &frame);
+    assert_memory_equal(pixels, fixture->pixels, sizeof pixels);
+    assert_memory_equal(directions, fixture->directions, sizeof directions);
 }

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/math.h"
-#include "reference.h"
+#include "metrics.h"
 #include "rendering.h"
 #include "scene/triangles.h"
 
@@ -70,12 +70,6 @@ static void pyramidChangesNoHit(void** state)
     free(walked);
 }
 
-static float degreesBetween(const float* a, const float* b)
-{
-    vtVec3 v = vtMakeVec3(a), w = vtMakeVec3(b);
-    return atan2f(vtLength(vtCross(v, w)), vtDot(v, w)) * 180.0f / VT_PI;
-}
-
 // Against the reference tracer: paths of no more than four events.
 static void hitsAreThoseOfATracer(void** state)
 {
@@ -84,26 +78,12 @@ static void hitsAreThoseOfATracer(void** state)
     for (int shape = 0; shape < shapeCount; ++shape) {
         vtMesh mesh;
         vtError error;
-        vtReference* reference;
         vtReferenceImage truth;
         vtFrame frame = smallFrame(vt_techniqueExact);
         assert_ok(vtCreateShape(shapes[shape], &mesh, &error), error);
-        vtMaterial material = vtDefaultMaterial();
-        vtObject object = {.toWorld = vtIdentityTransform()};
-        const vtScene scene = {.meshes = &mesh,
-                               .materials = &material,
-                               .objects = &object,
-                               .meshCount = 1,
-                               .materialCount = 1,
-                               .objectCount = 1};
-        if (vtCreateReference(&scene, &reference, &error) != vt_ok) {
-            vtDestroyMesh(&mesh);
-            print_message("skipped: %s\n", error.message);
-            skip();
-        }
         frame.view = vtView_Orbit(vtFrameMesh(&mesh, 45.0f, 1.0f), 0.9f, 0.2f);
         frame.preset = vt_presetHigh;
-        assert_ok(vtReference_Trace(reference, &(vtReferenceDef){.frame = &frame}, &truth, &error), error);
+        traceMesh(&mesh, &frame, &truth);
         assert_ok(vtRenderer_SetMesh(fixture->renderer, &mesh, &error), error);
         for (int source = vt_layersFromCube; source <= vt_layersFromEye; ++source) {
             frame.layerSource = (vtLayerSource)source;
@@ -112,7 +92,8 @@ static void hitsAreThoseOfATracer(void** state)
             for (int i = 0; i < side * side; ++i) {
                 if (truth.states[i] == VT_PATH_EXITED && truth.events[i] <= 4) {
                     ++compared;
-                    agreeing += degreesBetween(fixture->directions + 3 * i, truth.directions + 3 * i) < 1.0f;
+                    agreeing +=
+                        vtDirectionAngle(fixture->directions + 3 * i, truth.directions + 3 * i) < 1.0f;
                 }
             }
             print_message("  %s, %s: %d of %d within 1 degree\n", shapes[shape],
@@ -121,7 +102,6 @@ static void hitsAreThoseOfATracer(void** state)
             assert_true(agreeing >= least[source] * compared);
         }
         vtDestroyReferenceImage(&truth);
-        vtDestroyReference(reference);
         vtDestroyMesh(&mesh);
     }
 }

@@ -100,15 +100,12 @@ static void drawAndTrace(Fixture* fixture, vtMesh* mesh, const vtFrame* frame, v
 {
     vtError error;
     vtScene scene;
-    vtReference* reference;
     const vtMaterial material = vtDefaultMaterial();
     assert_ok(vtCreateMeshScene(mesh, &material, &scene, &error), error);
     assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
     draw(fixture, frame);
-    assert_ok(vtCreateReference(&scene, &reference, &error), error);
-    assert_ok(vtReference_Trace(reference, &(vtReferenceDef){.frame = frame}, traced, &error), error);
+    traceScene(&scene, frame, traced);
     assert_int_equal(scene.meshes[0].indexCount, 0);
-    vtDestroyReference(reference);
     vtDestroyScene(&scene);
 }
 
@@ -219,15 +216,13 @@ static void addShape(vtScene* scene, const char* name, bool opaque, vtVec3 at, f
 static void checkScene(Fixture* fixture, vtScene* scene, const vtFrame* frame, double share, const char* name)
 {
     vtError error;
-    vtReference* reference;
     vtReferenceImage truth;
     vtDirectionError difference;
     assert_ok(vtPrepareScene(scene, vt_techniqueHeightField, NULL, &error), error);
     assert_ok(vtRenderer_SetScene(fixture->renderer, scene, &error), error);
     draw(fixture, frame);
     assert_ok(vtPrepareScene(scene, vt_techniqueExact, NULL, &error), error);
-    assert_ok(vtCreateReference(scene, &reference, &error), error);
-    assert_ok(vtReference_Trace(reference, &(vtReferenceDef){.frame = frame}, &truth, &error), error);
+    traceScene(scene, frame, &truth);
     assert_ok(vtCompareDirections(fixture->directions, truth.directions, side * side, &difference, &error),
               error);
     if (difference.pixels < 1000 || difference.within1 < share || difference.maskErrors > 12) {
@@ -237,7 +232,6 @@ static void checkScene(Fixture* fixture, vtScene* scene, const vtFrame* frame, d
             difference.maskErrors);
     }
     vtDestroyReferenceImage(&truth);
-    vtDestroyReference(reference);
 }
 
 static void directionsAreThoseOfATracer(void** state)

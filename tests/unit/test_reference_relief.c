@@ -36,17 +36,7 @@ static struct RTCRayHit trace(RTCScene scene, const vtTestRay* ray)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    struct RTCRayHit query = {.ray = {.org_x = ray->origin.x,
-                                      .org_y = ray->origin.y,
-                                      .org_z = ray->origin.z,
-                                      .dir_x = ray->direction.x,
-                                      .dir_y = ray->direction.y,
-                                      .dir_z = ray->direction.z,
-                                      .tfar = INFINITY,
-                                      .mask = ~0u}};
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene, &context, &query);
-    return query;
+    return vtTraceRay(scene, &context, ray->origin, ray->direction);
 }
 
 /// Whether both triangles are such as the ray meets, or passes close by.

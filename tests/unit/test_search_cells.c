@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/math.h"
-#include "reference.h"
+#include "metrics.h"
 #include "rendering.h"
 
 static vtFrame cellsFrame(void)
@@ -10,12 +10,6 @@ static vtFrame cellsFrame(void)
     vtFrame frame = smallFrame(vt_techniqueLayered);
     frame.search = vt_searchCells;
     return frame;
-}
-
-static float degreesBetween(const float* a, const float* b)
-{
-    vtVec3 v = vtMakeVec3(a), w = vtMakeVec3(b);
-    return atan2f(vtLength(vtCross(v, w)), vtDot(v, w)) * 180.0f / VT_PI;
 }
 
 typedef struct Share {
@@ -28,7 +22,7 @@ static Share compareWith(const vtReferenceImage* truth, const float* directions)
     for (int i = 0; i < side * side; ++i) {
         if (truth->states[i] == VT_PATH_EXITED) {
             ++compared;
-            within += degreesBetween(directions + 3 * i, truth->directions + 3 * i) < 1.0f;
+            within += vtDirectionAngle(directions + 3 * i, truth->directions + 3 * i) < 1.0f;
             lost += directions[3 * i] == 2.0f;
         }
     }
@@ -48,26 +42,12 @@ static void hitsAreThoseOfATracer(void** state)
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; ++i) {
         vtMesh mesh;
         vtError error;
-        vtReference* reference;
         vtReferenceImage truth;
         assert_ok(vtCreateShape(wanted[i].shape, &mesh, &error), error);
-        vtMaterial material = vtDefaultMaterial();
-        vtObject object = {.toWorld = vtIdentityTransform()};
-        const vtScene scene = {.meshes = &mesh,
-                               .materials = &material,
-                               .objects = &object,
-                               .meshCount = 1,
-                               .materialCount = 1,
-                               .objectCount = 1};
-        if (vtCreateReference(&scene, &reference, &error) != vt_ok) {
-            vtDestroyMesh(&mesh);
-            print_message("skipped: %s\n", error.message);
-            skip();
-        }
         vtFrame frame = cellsFrame();
         frame.view = vtView_Orbit(vtFrameMesh(&mesh, 45.0f, 1.0f), 0.3f, 0.2f);
         frame.layerSize = 512;
-        assert_ok(vtReference_Trace(reference, &(vtReferenceDef){.frame = &frame}, &truth, &error), error);
+        traceMesh(&mesh, &frame, &truth);
         assert_ok(vtRenderer_SetMesh(fixture->renderer, &mesh, &error), error);
         draw(fixture, &frame);
         const Share cells = compareWith(&truth, fixture->directions);
@@ -79,7 +59,6 @@ static void hitsAreThoseOfATracer(void** state)
         assert_true(cells.within >= wanted[i].within && cells.within >= steps.within);
         assert_true(cells.lost <= wanted[i].lost);
         vtDestroyReferenceImage(&truth);
-        vtDestroyReference(reference);
         vtDestroyMesh(&mesh);
     }
 }
@@ -87,18 +66,9 @@ static void hitsAreThoseOfATracer(void** state)
 static void oneObjectInOrderIsAny(void** state)
 {
     Fixture* fixture = *state;
-    static uint8_t pixels[sizeof fixture->pixels];
-    static float directions[sizeof fixture->directions / sizeof(float)];
     setEnvironment(fixture->renderer, "studio");
     setShape(fixture->renderer, "knot");
-    vtFrame frame = cellsFrame();
-    draw(fixture, &frame);
-    memcpy(pixels, fixture->pixels, sizeof pixels);
-    memcpy(directions, fixture->directions, sizeof directions);
-    frame.multi = vt_multiOrdered;
-    draw(fixture, &frame);
-    assert_memory_equal(pixels, fixture->pixels, sizeof pixels);
-    assert_memory_equal(directions, fixture->directions, sizeof directions);
+    assertOrderedIsAny(fixture, cellsFrame());
 }
 
 // A ball within a ball, and an opaque one behind them: paths start on one object and enter another.
@@ -141,7 +111,7 @@ static void severalObjectsAgreeWithExact(void** state)
         glass += was == VT_PATH_EXITED || was == VT_PATH_OPAQUE;
         opaque += was == VT_PATH_OPAQUE;
         same += (was == VT_PATH_EXITED || was == VT_PATH_OPAQUE) && (layered[i] & 255u) == was &&
-                degreesBetween(fixture->directions + 3 * i, directions + 3 * i) < 1.0f;
+                vtDirectionAngle(fixture->directions + 3 * i, directions + 3 * i) < 1.0f;
     }
     assert_true(glass > side * side / 10 && opaque > glass / 20);
     print_message("  %d of %d as exact, %d opaque\n", same, glass, opaque);
