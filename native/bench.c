@@ -37,14 +37,10 @@ vtTiming vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, in
 
 static void labelRow(vtBenchRow* row)
 {
-    const vtTechniqueRow* technique = vtTechnique_Row(row->frame.technique);
-    row->id = technique->info.id;
-    const bool cells =
-        row->frame.search == vt_searchCells && technique->refract[vt_variantCells].name != NULL;
-    if (technique->cube && !technique->heights) {
-        snprintf(row->label, sizeof row->label, "%s, %d layers of %d", row->id, row->frame.layers,
-                 row->frame.cubeSize);
-    } else if (technique->layers == VT_LAYERS_OF_FRAME) {
+    const vtTechnique technique = row->frame.technique;
+    row->id = vtTechnique_Info(technique)->id;
+    const bool cells = technique == vt_techniqueLayered && row->frame.search == vt_searchCells;
+    if (vtTechnique_Row(technique)->layers == VT_LAYERS_OF_FRAME) {
         snprintf(row->label, sizeof row->label, "%s, %d layers%s", row->id, row->frame.layers,
                  cells ? ", cells" : "");
     } else {
@@ -79,6 +75,10 @@ static vtResult setRows(const vtOptions* options, const vtSession* session, vtBe
         if (result != vt_ok) {
             return result;
         }
+        const vtTechnique technique = row->frame.technique;
+        row->hasPicture = technique == vt_techniqueExact || technique == vt_techniqueHeightField;
+        row->frame.fresnel = true;
+        row->picture = vtResolveFrame(&row->frame);
         row->frame.fresnel = false; // strict paths, as the reference's
         row->frame = vtResolveFrame(&row->frame);
         labelRow(row);
@@ -86,6 +86,15 @@ static vtResult setRows(const vtOptions* options, const vtSession* session, vtBe
     return bench->rowCount > 0
                ? vt_ok
                : vtFail(error, vt_errorArgument, "--technique names none; see 'vitrine list'");
+}
+
+static void countTriangles(const vtScene* scene, vtBenchCase* measured)
+{
+    measured->triangles = (int)vtCountTriangles(scene);
+    measured->meshTriangles = 0;
+    for (uint32_t i = 0; i < scene->meshCount; ++i) {
+        measured->meshTriangles += (int)(scene->meshes[i].indexCount / 3);
+    }
 }
 
 vtResult vtBench_RunCase(const vtOptions* options, vtSession* session, int copies, vtBench* bench,
@@ -96,7 +105,7 @@ vtResult vtBench_RunCase(const vtOptions* options, vtSession* session, int copie
     if (result != vt_ok) {
         return result;
     }
-    measured->triangles = (int)vtCountTriangles(&session->input.scene);
+    countTriangles(&session->input.scene, measured);
     measured->copies = copies;
     measured->width = options->size[0];
     measured->height = options->size[1];
@@ -148,7 +157,8 @@ static vtResult sweepObjects(const vtOptions* options, vtSession* session, vtBen
     each.technique = vtTechnique_Info(vt_techniqueExact)->id; // only the view counts
     vtResult result = vtMakeFrame(&each, &session->input, &frame, error);
     if (result == vt_ok) {
-        result = vtCreateCopies(&session->input.scene, &frame.view, bench->sweep, &copies, error);
+        const float aspect = (float)options->size[0] / (float)options->size[1];
+        result = vtCreateCopies(&session->input.scene, &frame.view, aspect, bench->sweep, &copies, error);
     }
     if (result != vt_ok) {
         return result;
@@ -157,7 +167,8 @@ static vtResult sweepObjects(const vtOptions* options, vtSession* session, vtBen
     each.camera = copies.view.eye;
     each.target = copies.view.target;
     each.hasCamera = each.hasTarget = true;
-    for (int count = 1; count <= vt_maxCopies && result == vt_ok; count *= 2) {
+    for (int i = 0; vtCopies_Count(&copies, i) > 0 && result == vt_ok; ++i) {
+        const int count = vtCopies_Count(&copies, i);
         result = vtCopies_Place(&copies, count, &session->input.scene, error);
         if (result == vt_ok) {
             result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
@@ -280,7 +291,7 @@ vtResult vtRunBench(const vtOptions* given, vtError* error)
     }
     const bool isDefault = strcmp(options.technique, VT_BENCH_TECHNIQUES) == 0;
     if (vtSweepsObjects(sweep) && isDefault) {
-        options.technique = vtTechnique_Info(vt_techniqueExact)->id; // bvh draws one object
+        options.technique = vtTechnique_Info(vt_techniqueExact)->id; // the ones that cost most would hide it
     }
     options.innerDistances = strstr(options.technique, "wyman") != NULL;
     vtSession session;

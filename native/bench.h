@@ -10,8 +10,9 @@
 
 enum { vt_benchStages = 7, vt_maxBenchRows = 12, vt_maxBenchCases = 8 };
 
-/// Name of a stage as vtStageFcn gives it: surface peel cube merge refract shade present; index below
-/// vt_benchStages.
+/// Name of a stage as vtStageFcn gives it: surface peel merge refract trace shade present; index below
+/// vt_benchStages. A frame has some of them.
+/// `trace` is the whole path where one stage follows it.
 const char* vtBenchStage(int index);
 
 /// What differs from case to case.
@@ -19,7 +20,7 @@ typedef enum vtSweep {
     vt_sweepNone = 0,
     vt_sweepTriangles,
     vt_sweepResolution,
-    vt_sweepObjects, ///< copies side by side, each as large in the picture as one alone
+    vt_sweepObjects, ///< copies side by side, as large as all stay inside the picture
     vt_sweepDepth,   ///< copies one behind the other, all as large in the picture
     vt_sweepRelief,  ///< samples of a relief, by its heights and as triangles
     vt_sweepCount,
@@ -36,12 +37,15 @@ static inline bool vtSweepsObjects(vtSweep sweep)
 
 /// One technique.
 typedef struct vtBenchRow {
-    vtFrame frame; ///< resolved
+    vtFrame frame;   ///< strict paths, resolved
+    vtFrame picture; ///< as a frame is by default, with Fresnel reflection and branches
+    bool hasPicture; ///< the technique has all that belongs to it
     const char* id;
     char label[64]; ///< id and the settings that it depends on
     vtTiming time;
+    vtTiming pictureTime;            ///< 0 where there is none
     vtTiming stages[vt_benchStages]; ///< medians, GL finished after each; 0 where there is none
-    double build;                    ///< milliseconds, once a mesh, shaders compiled: cube or hierarchy
+    double build;                    ///< milliseconds, of the hierarchies; `upload` is without them
     double upload;                   ///< milliseconds, vtRenderer_SetScene
     size_t textureBytes;             ///< all that the renderer holds for it but the mesh
     size_t meshBytes, heightBytes;   ///< on the GPU; the latter are part of textureBytes
@@ -50,25 +54,27 @@ typedef struct vtBenchRow {
     // A sweep over a relief's samples only.
     double triangulation;       ///< milliseconds
     size_t hostBytes;           ///< of the heights or the mesh, beside the GPU
-    size_t glassBytes;          ///< on the GPU: heights, or mesh and layers
+    size_t glassBytes;          ///< on the GPU: heights or mesh; 0: unknown
     vtDirectionError agreement; ///< with the other technique's directions
     char absent[512];           ///< why it could not be drawn; "": it was
 } vtBenchRow;
 
 /// All techniques on one mesh at one size.
 typedef struct vtBenchCase {
-    int triangles, width, height;
+    int triangles;     ///< of all objects
+    int meshTriangles; ///< copies counted once
+    int width, height;
     int copies;  ///< of the model, 1 without a sweep over them
     int samples; ///< a side of the relief; 0 without a sweep over them
     int rounds;
-    size_t paths;       ///< pixels that see glass
-    double eventsAPath; ///< of the true paths, mean
-    vtTiming traced;    ///< the reference, directions only; 0: not traced, see untraced
-    char untraced[128]; ///< why
-    double flip;        ///< mean, between the pictures of a sweep over a relief's samples
-    double tracerBuild; ///< milliseconds, of the reference's search structure
-    double upload;      ///< milliseconds, vtRenderer_SetScene
-    size_t meshBytes;   ///< on the GPU
+    size_t paths;          ///< pixels that see glass
+    double eventsAPath;    ///< of the true paths, mean
+    vtTracedTiming traced; ///< the reference; 0: not traced, see untraced
+    char untraced[128];    ///< why
+    double flip;           ///< mean, between the pictures of a sweep over a relief's samples
+    double tracerBuild;    ///< milliseconds, of the reference's search structure
+    double upload;         ///< milliseconds, vtRenderer_SetScene, of the first row
+    size_t meshBytes;      ///< on the GPU, of the first row
     vtBenchRow rows[vt_maxBenchRows];
 } vtBenchCase;
 
@@ -89,6 +95,12 @@ typedef struct vtBench {
 /// Times of the row over those of the technique `layered` in the same case; 0 where that is not measured.
 vtTiming vtBench_ToLayered(const vtBench* bench, const vtBenchCase* measured, int row);
 
+/// Of the mesh on the GPU, copies counted once; 0 without triangles.
+static inline double vtBytesATriangle(const vtBenchCase* measured, const vtBenchRow* row)
+{
+    return measured->meshTriangles > 0 ? (double)row->meshBytes / (double)measured->meshTriangles : 0.0;
+}
+
 /// Measures the session's scene, in which there are `copies` of the model, as the bench's next case.
 vtResult vtBench_RunCase(const vtOptions* options, vtSession* session, int copies, vtBench* bench,
                          vtError* error);
@@ -99,7 +111,7 @@ vtResult vtBench_Measure(const vtOptions* options, vtSession* session, const vtB
 
 /// What a renderer of its own costs that draws this technique only: memory, and time to upload and to build,
 /// shaders compiled.
-vtResult vtBench_Probe(vtSession* session, vtBenchCase* measured, vtBenchRow* row, vtError* error);
+vtResult vtBench_Probe(vtSession* session, vtBenchRow* row, vtError* error);
 
 /// Accuracy and times of the rows that are not absent. reference: NULL where there is none.
 vtResult vtBench_Compare(const vtOptions* options, vtSession* session, const vtReference* reference,
@@ -127,17 +139,19 @@ static inline int vtReliefSweepSize(const vtOptions* options, int index)
 typedef struct vtCopies {
     vtObject* objects; ///< of one copy
     uint32_t objectCount;
-    vtView view;   ///< of all cases
-    float spacing; ///< side by side: of the grid, world units
-    float growth;  ///< one behind the other: of each, about the eye, over the one before it
+    vtView view;              ///< of all cases
+    vtVec3 low, high;         ///< box of one copy
+    float tangentX, tangentY; ///< of half the field of view
+    float growth;             ///< one behind the other: of each, about the eye, over the one before it
     vtSweep sweep;
 } vtCopies;
 
-/// vt_maxCopies copies fill the picture that the one of `view` fills by itself.
-enum { vt_maxCopies = 16 };
-vtResult vtCreateCopies(const vtScene* scene, const vtView* view, vtSweep sweep, vtCopies* copies,
-                        vtError* error);
-/// Puts that many in place of the scene's objects, 1 to vt_maxCopies; they share its meshes.
+/// `aspect`: width over height of the picture.
+vtResult vtCreateCopies(const vtScene* scene, const vtView* view, float aspect, vtSweep sweep,
+                        vtCopies* copies, vtError* error);
+/// Copies in the sweep's case of this index; 0 past the last one.
+int vtCopies_Count(const vtCopies* copies, int index);
+/// Puts that many in place of the scene's objects; they share its meshes.
 vtResult vtCopies_Place(const vtCopies* copies, int count, vtScene* scene, vtError* error);
 void vtDestroyCopies(vtCopies* copies);
 

@@ -1,5 +1,5 @@
-// A sweep as a picture: time over triangles, pixels, objects or samples, both logarithmic, one line a
-// technique.
+// A sweep as a picture: time over triangles, pixels, objects or samples, both logarithmic; a line for each
+// technique's strict paths, and a dashed one for its default picture.
 #include <math.h>
 #include <string.h>
 
@@ -26,10 +26,31 @@ static bool takesProcessorTime(const vtBench* bench)
     return strstr(bench->device, "llvmpipe") != NULL;
 }
 
-/// Time of a row; of the reference behind the last one. 0: it was not measured.
-static double timeOf(const vtBench* bench, const vtBenchCase* measured, int row)
+/// Lines: the rows' strict paths, their default pictures, and the reference's two of the same.
+static int lineCount(const vtBench* bench)
 {
-    const vtTiming* time = row < bench->rowCount ? &measured->rows[row].time : &measured->traced;
+    return 2 * bench->rowCount + 2;
+}
+
+static bool isReference(const vtBench* bench, int line)
+{
+    return line >= 2 * bench->rowCount;
+}
+
+static bool isPicture(const vtBench* bench, int line)
+{
+    return isReference(bench, line) ? line > 2 * bench->rowCount : line >= bench->rowCount;
+}
+
+/// 0: it was not measured.
+static double timeOf(const vtBench* bench, const vtBenchCase* measured, int line)
+{
+    const vtTracedTiming* traced = &measured->traced;
+    const bool picture = isPicture(bench, line);
+    const vtBenchRow* row = &measured->rows[line % bench->rowCount];
+    const vtTiming* time = isReference(bench, line) ? picture ? &traced->picture : &traced->directions
+                           : picture                ? &row->pictureTime
+                                                    : &row->time;
     return takesProcessorTime(bench) ? time->processor : time->wall;
 }
 
@@ -47,12 +68,12 @@ static Axes fitAxes(const vtBench* bench)
 {
     Axes axes = {{1e9, 1e9}, {-1e9, -1e9}};
     for (int i = 0; i < bench->caseCount; ++i) {
-        for (int row = 0; row <= bench->rowCount; ++row) {
-            if (timeOf(bench, &bench->cases[i], row) == 0.0) {
+        for (int line = 0; line < lineCount(bench); ++line) {
+            if (timeOf(bench, &bench->cases[i], line) == 0.0) {
                 continue;
             }
             const double point[2] = {log10(variable(bench, &bench->cases[i])),
-                                     log10(timeOf(bench, &bench->cases[i], row))};
+                                     log10(timeOf(bench, &bench->cases[i], line))};
             for (int k = 0; k < 2; ++k) {
                 axes.low[k] = fmin(axes.low[k], point[k]);
                 axes.high[k] = fmax(axes.high[k], point[k]);
@@ -103,41 +124,55 @@ static void writeGrid(const vtBench* bench, const Axes* axes, FILE* out)
                                                  : "by objects");
 }
 
-static void writeLine(const vtBench* bench, const Axes* axes, int row, double labelY, FILE* out)
+static void writeLine(const vtBench* bench, const Axes* axes, int line, double labelY, FILE* out)
 {
     static const char* const colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
-    const bool isReference = row == bench->rowCount;
-    const char* color = isReference ? "#000" : colors[row % 6];
+    const bool reference = isReference(bench, line), picture = isPicture(bench, line);
+    const int row = line % bench->rowCount;
+    const char* color = reference ? "#000" : colors[row % 6];
     fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"2\"%s points=\"", color,
-            isReference ? " stroke-dasharray=\"6 4\"" : "");
+            picture ? " stroke-dasharray=\"6 4\"" : "");
     for (int i = 0; i < bench->caseCount; ++i) {
-        if (timeOf(bench, &bench->cases[i], row) == 0.0) {
+        if (timeOf(bench, &bench->cases[i], line) == 0.0) {
             continue;
         }
         fprintf(out, "%.1f,%.1f ", across(axes, variable(bench, &bench->cases[i])),
-                down(axes, timeOf(bench, &bench->cases[i], row)));
+                down(axes, timeOf(bench, &bench->cases[i], line)));
     }
     fprintf(out, "\"/>\n");
     for (int i = 0; i < bench->caseCount; ++i) {
-        if (timeOf(bench, &bench->cases[i], row) == 0.0) {
+        if (timeOf(bench, &bench->cases[i], line) == 0.0) {
             continue;
         }
         fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>",
                 across(axes, variable(bench, &bench->cases[i])),
-                down(axes, timeOf(bench, &bench->cases[i], row)), color);
+                down(axes, timeOf(bench, &bench->cases[i], line)), color);
     }
-    fprintf(out, "\n<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\">%s</text>\n", width - right + 10.0, labelY, color,
-            isReference ? "reference (Embree)" : bench->cases[0].rows[row].label);
+    fprintf(out, "\n<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\">%s%s</text>\n", width - right + 10.0, labelY,
+            color, reference ? "Embree" : bench->cases[0].rows[row].label, picture ? ", picture" : "");
 }
 
-/// Time of a row in the last case that it was measured in.
-static double lastTime(const vtBench* bench, int row)
+/// Time of a line in the last case that it was measured in; 0: in none.
+static double lastTime(const vtBench* bench, int line)
 {
     double time = 0.0;
     for (int i = bench->caseCount - 1; i >= 0 && time == 0.0; --i) {
-        time = timeOf(bench, &bench->cases[i], row);
+        time = timeOf(bench, &bench->cases[i], line);
     }
-    return time > 0.0 ? time : 1.0; // a label has a place all the same
+    return time;
+}
+
+/// The line of the longest last time among those not written yet; -1: none is left.
+static int findNext(const vtBench* bench, const bool* written)
+{
+    int next = -1;
+    for (int line = 0; line < lineCount(bench); ++line) {
+        const double time = written[line] ? 0.0 : lastTime(bench, line);
+        if (time > 0.0 && (next < 0 || time > lastTime(bench, next))) {
+            next = line;
+        }
+    }
+    return next;
 }
 
 void vtBench_WritePlot(const vtBench* bench, FILE* out)
@@ -150,15 +185,9 @@ void vtBench_WritePlot(const vtBench* bench, FILE* out)
     writeGrid(bench, &axes, out);
     // Lines in the order of their last points, from the top, so that labels need only be kept apart
     // downwards.
-    bool written[vt_maxBenchRows + 1] = {false};
+    bool written[2 * vt_maxBenchRows + 2] = {false};
     double lowest = top;
-    for (int n = 0; n <= bench->rowCount; ++n) {
-        int next = -1;
-        for (int row = 0; row <= bench->rowCount; ++row) {
-            if (!written[row] && (next < 0 || lastTime(bench, row) > lastTime(bench, next))) {
-                next = row;
-            }
-        }
+    for (int next = findNext(bench, written); next >= 0; next = findNext(bench, written)) {
         written[next] = true;
         lowest = fmax(lowest + 15.0, down(&axes, lastTime(bench, next)) + 4.0);
         writeLine(bench, &axes, next, lowest, out);

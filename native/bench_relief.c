@@ -9,7 +9,6 @@
 #include "metrics_image.h"
 #include "scene/height_field.h"
 #include "scene/relief.h"
-#include "scene/triangles.h"
 
 // What Embree takes for a triangle while it builds its hierarchy: 5.1 GB in all for 33.6 million of them.
 static const double tracedTriangleBytes = 150.0;
@@ -19,16 +18,9 @@ static size_t hostBytes(const vtMesh* mesh)
     return 24 * (size_t)mesh->vertexCount + sizeof(uint32_t) * (size_t)mesh->indexCount;
 }
 
-/// What vtRendererInfo says of a mesh that the GPU holds.
-static size_t gpuBytes(const vtMesh* mesh)
+static vtResult probeHeights(vtSession* session, vtBenchRow* row, vtError* error)
 {
-    const size_t rows = ((size_t)mesh->indexCount / 3 + VT_TRIANGLES_A_ROW - 1) / VT_TRIANGLES_A_ROW;
-    return hostBytes(mesh) + rows * VT_TRIANGLES_A_ROW * VT_TRIANGLE_WORDS * sizeof(uint32_t);
-}
-
-static vtResult probeHeights(vtSession* session, vtBenchCase* measured, vtBenchRow* row, vtError* error)
-{
-    const vtResult result = vtBench_Probe(session, measured, row, error);
+    const vtResult result = vtBench_Probe(session, row, error);
     row->hostBytes = vtHeightField_Bytes(session->input.scene.meshes[0].heights);
     row->glassBytes = row->heightBytes;
     return result;
@@ -44,12 +36,15 @@ static vtResult probeTriangles(vtSession* session, vtBenchCase* measured, vtBenc
     if (result == vt_ok) {
         row->triangulation = vtNow() - start;
         row->hostBytes = hostBytes(mesh);
-        row->glassBytes = gpuBytes(mesh) + vtFrame_CubeBytes(&row->frame);
-        measured->triangles = (int)(mesh->indexCount / 3);
+        measured->triangles = measured->meshTriangles = (int)(mesh->indexCount / 3);
         result = vtRenderer_SetScene(session->renderer, &session->input.scene, &reason);
     }
     if (result == vt_ok) {
-        return vtBench_Probe(session, measured, row, error);
+        result = vtBench_Probe(session, row, error);
+        measured->upload = row->upload;
+        measured->meshBytes = row->meshBytes;
+        row->glassBytes = row->meshBytes;
+        return result;
     }
     if (result != vt_errorMemory && result != vt_errorContext) {
         return vtFail(error, result, "%s", reason.message);
@@ -132,7 +127,7 @@ vtResult vtBench_MeasureRelief(const vtOptions* options, vtSession* session, con
 {
     vtReference* reference = NULL;
     measured->samples = session->input.scene.meshes[0].heights->width;
-    vtResult result = probeHeights(session, measured, &measured->rows[0], error);
+    vtResult result = probeHeights(session, &measured->rows[0], error);
     if (result == vt_ok) {
         result = probeTriangles(session, measured, &measured->rows[1], error);
     }

@@ -1,4 +1,4 @@
-// The figures of `vitrine bench` as Markdown and as JSON.
+// The figures of `vitrine bench` as Markdown.
 #include <string.h>
 
 #include "bench.h"
@@ -17,6 +17,22 @@ static void shortName(const char* model, char name[128])
     if (dot != NULL && dot != name) {
         *dot = '\0';
     }
+}
+
+/// Rounds of the cases, which may differ.
+static void writeRounds(const vtBench* bench, FILE* out)
+{
+    int least = bench->cases[0].rounds, most = least;
+    for (int i = 1; i < bench->caseCount; ++i) {
+        const int rounds = bench->cases[i].rounds;
+        least = rounds < least ? rounds : least;
+        most = rounds > most ? rounds : most;
+    }
+    fprintf(out, "; medians of ");
+    if (least < most) {
+        fprintf(out, "%d to ", least);
+    }
+    fprintf(out, "%d frames.", most);
 }
 
 static void writeHeader(const vtBench* bench, FILE* out)
@@ -44,9 +60,9 @@ static void writeHeader(const vtBench* bench, FILE* out)
     } else {
         fprintf(out, "%d processors", bench->processors);
     }
-    fprintf(out, "; medians of %d frames.", first->rounds);
+    writeRounds(bench, out);
     if (bench->sweep == vt_sweepNone) {
-        fprintf(out, " Mesh on the GPU: %.1f MB, %.0f ms.", mebibytes(first->meshBytes), first->upload);
+        fprintf(out, " Mesh on the GPU: %.1f MB.", mebibytes(first->meshBytes));
     }
     fprintf(out, "\n\n");
 }
@@ -61,31 +77,93 @@ static void writeVariable(const vtBench* bench, const vtBenchCase* measured, FIL
     }
 }
 
+/// "1.53 | " of times that are both there.
+static void writeRatio(double time, double other, FILE* out)
+{
+    fprintf(out, time > 0.0 && other > 0.0 ? "%.2f | " : "- | ", time / other);
+}
+
+static void writeTime(double time, FILE* out)
+{
+    fprintf(out, time > 0.0 ? "%.1f ms | " : "- | ", time);
+}
+
+static void writeRatios(const vtTiming* time, const vtTiming* other, FILE* out)
+{
+    writeRatio(time->wall, other->wall, out);
+    writeRatio(time->processor, other->processor, out);
+}
+
+static void writeTimes(const vtTiming* time, FILE* out)
+{
+    writeTime(time->wall, out);
+    writeTime(time->processor, out);
+}
+
+/// Columns of writeRow from `frame` to `picture CPU / Embree`, by what is measured there.
+static void writeAllTimes(const vtTiming* strict, const vtTiming* toLayered, const vtTiming* picture,
+                          const vtTracedTiming* traced, FILE* out)
+{
+    static const vtTiming one = {1.0, 1.0};
+    writeTimes(strict, out);
+    writeRatios(strict, &traced->directions, out);
+    writeRatios(strict, &traced->strict, out);
+    writeRatios(toLayered, &one, out);
+    writeTimes(picture, out);
+    writeRatios(picture, &traced->picture, out);
+}
+
 static void writeRow(const vtBench* bench, const vtBenchCase* measured, int index, FILE* out)
 {
     const vtBenchRow* row = &measured->rows[index];
-    const vtTiming *time = &row->time, *traced = &measured->traced;
     const vtTiming toLayered = vtBench_ToLayered(bench, measured, index);
     writeVariable(bench, measured, out);
-    fprintf(out, "| %s | %.1f ms | %.1f ms | %.2f | %.2f | ", row->label, time->wall, time->processor,
-            time->wall / traced->wall, time->processor / traced->processor);
-    fprintf(out, toLayered.wall > 0.0 ? "%.2f | %.2f | " : "- | - | ", toLayered.wall, toLayered.processor);
+    fprintf(out, "| %s | ", row->label);
+    writeAllTimes(&row->time, &toLayered, &row->pictureTime, &measured->traced, out);
     fprintf(out, "%.2f %% | %.2f %% | %.2f %% | ", 100.0 * row->error.within1, 100.0 * row->error.within5,
             100.0 * row->error.lost);
-    fprintf(out, "%.1f | %.1f | %.1f MB | ", row->readsAPath, row->readsAnEvent,
-            mebibytes(row->textureBytes));
+    fprintf(out, "%.1f | %.1f | %.1f MB | %.0f | %.0f ms | ", row->readsAPath, row->readsAnEvent,
+            mebibytes(row->textureBytes), vtBytesATriangle(measured, row), row->upload);
     fprintf(out, row->build > 0.0 ? "%.0f ms |\n" : "- |\n", row->build);
+}
+
+/// The reference's directions and default picture in the columns of a technique's, then its strict picture.
+static void writeTraced(const vtBench* bench, const vtBenchCase* measured, FILE* out)
+{
+    static const vtTiming none = {0.0, 0.0};
+    const vtTracedTiming* traced = &measured->traced;
+    writeVariable(bench, measured, out);
+    fprintf(out, "| Embree | ");
+    writeAllTimes(&traced->directions, &none, &traced->picture, traced, out);
+    fprintf(out, "- | - | - | - | - | - | - | - | %.0f ms |\n", measured->tracerBuild);
+    writeVariable(bench, measured, out);
+    fprintf(out, "| Embree, strict picture | ");
+    writeAllTimes(&traced->strict, &none, &none, traced, out);
+    fprintf(out, "- | - | - | - | - | - | - | - | - |\n");
+}
+
+/// Whether any technique has the stage.
+static bool hasStage(const vtBench* bench, int stage)
+{
+    bool has = false;
+    for (int i = 0; i < bench->rowCount; ++i) {
+        has = has || bench->cases[0].rows[i].stages[stage].wall > 0.0;
+    }
+    return has;
 }
 
 static void writeStages(const vtBench* bench, FILE* out)
 {
-    fprintf(out, "\nStages, GL finished after each, with CPU time in brackets:\n\n| technique |");
+    fprintf(out,
+            "\nStages of strict paths, GL finished after each, with CPU time in brackets:\n\n| technique |");
     for (int i = 0; i < vt_benchStages; ++i) {
-        fprintf(out, " %s |", vtBenchStage(i));
+        if (hasStage(bench, i)) {
+            fprintf(out, " %s |", vtBenchStage(i));
+        }
     }
     fprintf(out, "\n|---|");
     for (int i = 0; i < vt_benchStages; ++i) {
-        fprintf(out, "---|");
+        fprintf(out, hasStage(bench, i) ? "---|" : "");
     }
     fprintf(out, "\n");
     for (int i = 0; i < bench->rowCount; ++i) {
@@ -93,48 +171,74 @@ static void writeStages(const vtBench* bench, FILE* out)
         fprintf(out, "| %s |", row->label);
         for (int stage = 0; stage < vt_benchStages; ++stage) {
             const vtTiming* time = &row->stages[stage];
-            fprintf(out, time->wall > 0.0 ? " %.1f (%.1f) ms |" : " - |", time->wall, time->processor);
+            if (hasStage(bench, stage)) {
+                fprintf(out, time->wall > 0.0 ? " %.1f (%.1f) ms |" : " - |", time->wall, time->processor);
+            }
         }
         fprintf(out, "\n");
     }
 }
 
-static int stageNumber(const char* name)
+/// Processors' time of the stages that follow paths.
+static double pathTime(const vtBenchRow* row)
 {
-    int stage = 0;
-    while (strcmp(vtBenchStage(stage), name) != 0) {
-        ++stage;
+    double time = 0.0;
+    for (int i = 0; i < vt_benchStages; ++i) {
+        const char* name = vtBenchStage(i);
+        time += strcmp(name, "refract") == 0 || strcmp(name, "trace") == 0 ? row->stages[i].processor : 0.0;
     }
-    return stage;
+    return time;
+}
+
+/// A row of a sweep over objects; perPixel: glass pixels of the first case over those of this one.
+static void writeObjectRow(const vtBench* bench, const vtBenchCase* measured, int index, double perPixel,
+                           FILE* out)
+{
+    const vtBenchRow *row = &measured->rows[index], *one = &bench->cases[0].rows[index];
+    const double share = (double)measured->paths / ((double)measured->width * (double)measured->height);
+    const vtTracedTiming* traced = &measured->traced;
+    fprintf(out, "| %d | %s | %zu | %.1f %% | %.2f | ", measured->copies, row->label, measured->paths,
+            100.0 * share, measured->eventsAPath);
+    writeTimes(&row->time, out);
+    writeRatio(perPixel * row->time.processor, one->time.processor, out);
+    writeRatio(perPixel * pathTime(row), pathTime(one), out);
+    writeRatio(row->time.processor, traced->directions.processor, out);
+    writeRatio(row->time.processor, traced->strict.processor, out);
+    writeTimes(&row->pictureTime, out);
+    writeRatio(row->pictureTime.processor, traced->picture.processor, out);
+    fprintf(out, "%.2f %% | %.2f %% | %.1f MB | %.1f MB | %.0f | %.0f ms | ", 100.0 * row->error.within1,
+            100.0 * row->error.lost, mebibytes(row->textureBytes), mebibytes(row->meshBytes),
+            vtBytesATriangle(measured, row), row->upload);
+    fprintf(out, row->build > 0.0 ? "%.0f ms |\n" : "- |\n", row->build);
 }
 
 /// A sweep over objects: what each costs, and what all hold.
 static void writeObjects(const vtBench* bench, FILE* out)
 {
     const vtBenchCase* first = &bench->cases[0];
-    const int refract = stageNumber("refract");
     fprintf(out,
             "| objects | technique | glass pixels | of the picture | events a path | frame | CPU | CPU a "
-            "glass pixel | refract alone | CPU / Embree | within 1° | lost | textures | meshes |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+            "glass pixel | paths alone | CPU / Embree | CPU / strict picture | picture | picture CPU | "
+            "picture CPU / Embree | within 1° | lost | textures | meshes | bytes a triangle | upload | build "
+            "|\n");
+    for (int i = 0; i < 21; ++i) {
+        fprintf(out, "|---");
+    }
+    fprintf(out, "|\n");
     for (int i = 0; i < bench->caseCount; ++i) {
         const vtBenchCase* measured = &bench->cases[i];
-        const double share = (double)measured->paths / ((double)measured->width * (double)measured->height);
+        const vtTracedTiming* traced = &measured->traced;
         const double perPixel = (double)first->paths / (double)measured->paths;
         for (int k = 0; k < bench->rowCount; ++k) {
-            const vtBenchRow *row = &measured->rows[k], *one = &first->rows[k];
-            fprintf(out, "| %d | %s | %zu | %.1f %% | %.2f | ", measured->copies, row->label, measured->paths,
-                    100.0 * share, measured->eventsAPath);
-            fprintf(out, "%.1f ms | %.1f ms | %.2f | %.2f | %.2f | ", row->time.wall, row->time.processor,
-                    perPixel * row->time.processor / one->time.processor,
-                    perPixel * row->stages[refract].processor / one->stages[refract].processor,
-                    row->time.processor / measured->traced.processor);
-            fprintf(out, "%.2f %% | %.2f %% | %.1f MB | %.1f MB |\n", 100.0 * row->error.within1,
-                    100.0 * row->error.lost, mebibytes(row->textureBytes), mebibytes(measured->meshBytes));
+            writeObjectRow(bench, measured, k, perPixel, out);
         }
-        fprintf(out, "| %d | Embree | - | - | - | %.1f ms | %.1f ms | %.2f | - | 1 | - | - | - | - |\n",
-                measured->copies, measured->traced.wall, measured->traced.processor,
-                perPixel * measured->traced.processor / first->traced.processor);
+        fprintf(out, "| %d | Embree | - | - | - | ", measured->copies);
+        writeTimes(&traced->directions, out);
+        writeRatio(perPixel * traced->directions.processor, first->traced.directions.processor, out);
+        fprintf(out, "- | 1 | ");
+        writeRatio(traced->directions.processor, traced->strict.processor, out);
+        writeTimes(&traced->picture, out);
+        fprintf(out, "1 | - | - | - | - | - | - | %.0f ms |\n", measured->tracerBuild);
     }
 }
 
@@ -152,10 +256,13 @@ void vtBench_WriteTable(const vtBench* bench, FILE* out)
     if (bench->sweep != vt_sweepNone) {
         fprintf(out, "| %s ", vtSweepName(bench->sweep));
     }
-    fprintf(out, "| technique | frame | CPU | frame / Embree | CPU / Embree | frame / layered | CPU / "
-                 "layered | within 1° | "
-                 "within 5° | lost | reads a path | reads an event | textures | build |\n");
-    for (int i = 0; i < (bench->sweep != vt_sweepNone ? 15 : 14); ++i) {
+    fprintf(
+        out,
+        "| technique | frame | CPU | frame / Embree | CPU / Embree | frame / strict picture | CPU / strict "
+        "picture | frame / layered | CPU / layered | picture | picture CPU | picture / Embree | "
+        "picture CPU / Embree | within 1° | within 5° | lost | reads a path | reads an event | "
+        "textures | bytes a triangle | upload | build |\n");
+    for (int i = 0; i < (bench->sweep != vt_sweepNone ? 23 : 22); ++i) {
         fprintf(out, "|---");
     }
     fprintf(out, "|\n");
@@ -164,89 +271,9 @@ void vtBench_WriteTable(const vtBench* bench, FILE* out)
         for (int row = 0; row < bench->rowCount; ++row) {
             writeRow(bench, measured, row, out);
         }
-        writeVariable(bench, measured, out);
-        fprintf(out, "| Embree | %.1f ms | %.1f ms | 1 | 1 | - | - | - | - | - | - | - | - | %.0f ms |\n",
-                measured->traced.wall, measured->traced.processor, measured->tracerBuild);
+        writeTraced(bench, measured, out);
     }
     if (bench->sweep == vt_sweepNone) {
         writeStages(bench, out);
     }
-}
-
-void vtWriteJsonText(const char* name, const char* text, FILE* out)
-{
-    fprintf(out, "\"%s\":\"", name);
-    for (; *text != '\0'; ++text) {
-        if (*text == '"' || *text == '\\') {
-            fprintf(out, "\\%c", *text);
-        } else if ((unsigned char)*text < 32) {
-            fprintf(out, "\\u%04x", (unsigned)*text);
-        } else {
-            fputc(*text, out);
-        }
-    }
-    fprintf(out, "\",");
-}
-
-static void writeJsonRow(const vtBench* bench, const vtBenchCase* measured, int index, FILE* out)
-{
-    const vtBenchRow* row = &measured->rows[index];
-    const vtTiming toLayered = vtBench_ToLayered(bench, measured, index);
-    fprintf(out, "{");
-    vtWriteJsonText("id", row->id, out);
-    vtWriteJsonText("label", row->label, out);
-    if (bench->sweep == vt_sweepRelief) {
-        vtBenchRow_WriteReliefJson(row, out);
-    }
-    fprintf(out, "\"wall\":%.4f,\"cpu\":%.4f,", row->time.wall, row->time.processor);
-    if (measured->traced.wall > 0.0) {
-        fprintf(out, "\"wallToReference\":%.5f,\"cpuToReference\":%.5f,",
-                row->time.wall / measured->traced.wall, row->time.processor / measured->traced.processor);
-    }
-    if (toLayered.wall > 0.0) {
-        fprintf(out, "\"wallToLayered\":%.5f,\"cpuToLayered\":%.5f,", toLayered.wall, toLayered.processor);
-    }
-    fprintf(out, "\"pixels\":%zu,\"within1\":%.6f,\"within5\":%.6f,\"lost\":%.6f,", row->error.pixels,
-            row->error.within1, row->error.within5, row->error.lost);
-    fprintf(out, "\"readsAPath\":%.3f,\"readsAnEvent\":%.3f,\"textureBytes\":%zu,\"build\":%.3f,\"stages\":{",
-            row->readsAPath, row->readsAnEvent, row->textureBytes, row->build);
-    for (int i = 0; i < vt_benchStages; ++i) {
-        fprintf(out, "%s\"%s\":{\"wall\":%.4f,\"cpu\":%.4f}", i > 0 ? "," : "", vtBenchStage(i),
-                row->stages[i].wall, row->stages[i].processor);
-    }
-    fprintf(out, "}}");
-}
-
-void vtBench_WriteJson(const vtBench* bench, FILE* out)
-{
-    fprintf(out, "{");
-    vtWriteJsonText("version", VT_VERSION, out);
-    vtWriteJsonText("model", bench->model, out);
-    vtWriteJsonText("sweep", vtSweepName(bench->sweep), out);
-    vtWriteJsonText("preset", bench->preset, out);
-    vtWriteJsonText("device", bench->device, out);
-    vtWriteJsonText("gl", bench->version, out);
-    fprintf(out, "\"threads\":%d,\"processors\":%d,\"ior\":%g,\"maxEvents\":%d,\"cases\":[", bench->threads,
-            bench->processors, (double)bench->ior, bench->maxEvents);
-    for (int i = 0; i < bench->caseCount; ++i) {
-        const vtBenchCase* measured = &bench->cases[i];
-        fprintf(out,
-                "%s{\"objects\":%d,\"triangles\":%d,\"width\":%d,\"height\":%d,\"rounds\":%d,\"paths\":%zu,",
-                i > 0 ? "," : "", measured->copies, measured->triangles, measured->width, measured->height,
-                measured->rounds, measured->paths);
-        if (bench->sweep == vt_sweepRelief) {
-            vtWriteJsonText("untraced", measured->untraced, out);
-            fprintf(out, "\"samples\":%d,\"flip\":%.7f,", measured->samples, measured->flip);
-        }
-        fprintf(out, "\"eventsAPath\":%.4f,\"upload\":%.3f,\"meshBytes\":%zu,", measured->eventsAPath,
-                measured->upload, measured->meshBytes);
-        fprintf(out, "\"reference\":{\"wall\":%.4f,\"cpu\":%.4f,\"build\":%.3f},\"techniques\":[",
-                measured->traced.wall, measured->traced.processor, measured->tracerBuild);
-        for (int row = 0; row < bench->rowCount; ++row) {
-            fprintf(out, "%s", row > 0 ? "," : "");
-            writeJsonRow(bench, measured, row, out);
-        }
-        fprintf(out, "]}");
-    }
-    fprintf(out, "]}\n");
 }

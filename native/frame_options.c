@@ -73,8 +73,6 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     frame->refine = options->refine;
     frame->maxEvents = options->maxEvents;
     frame->layerSize = options->layerSize;
-    frame->cubeSize = options->cubeSize;
-    frame->topLevel = options->topLevel;
     frame->exposure = options->exposure;
     frame->samples = isReference ? 1 : options->samples; // the reference takes more
     frame->transmittance = options->transmittance;
@@ -86,13 +84,10 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     for (int i = 0; i <= vt_presetCount; ++i) {
         presets[i] = vtPresetName(i);
     }
-    static const char* const sources[] = {"cube", "eye", NULL};
     static const char *const backs[] = {"second", "farthest", NULL}, *const orders[] = {"any", "ordered",
                                                                                         NULL};
     static const char* const searches[] = {"steps", "cells", NULL};
     vtResult result = vt_ok;
-    frame->layerSource =
-        (vtLayerSource)chooseWord("layer-source", options->layerSource, sources, &result, error);
     frame->preset = (vtPreset)chooseWord("preset", options->preset, presets, &result, error);
     frame->backSurface =
         (vtBackSurface)chooseWord("back-surface", options->backSurface, backs, &result, error);

@@ -110,13 +110,17 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
         result = vtCreateReference(&session->input.scene, &reference, error);
     }
     if (result == vt_ok) {
-        vtTiming times[rungCount], traced;
+        vtTiming times[rungCount];
+        vtTracedTiming traced;
         for (int i = 0; i < ladder->count; ++i) {
             ladder->frames[i].samples = 1; // times are those of one sample, as the reference's is
         }
-        const vtTimingDef def = {session->renderer, ladder->frames, ladder->count, reference, 0, 0, 0.0};
+        const vtTimingDef def = {.renderer = session->renderer,
+                                 .frames = ladder->frames,
+                                 .count = ladder->count,
+                                 .reference = reference};
         result = vtTimeFrames(&def, times, &traced, NULL, error);
-        ladder->traced = traced.wall;
+        ladder->traced = traced.directions.wall;
         for (int i = 0; i < ladder->count && result == vt_ok; ++i) {
             ladder->rungs[i].milliseconds = times[i].wall;
         }

@@ -10,7 +10,7 @@
 #define VT_RELIEF_TECHNIQUE "heightfield"
 
 /// What `bench` measures unless told otherwise.
-#define VT_BENCH_TECHNIQUES "exact,layered,bvh,single"
+#define VT_BENCH_TECHNIQUES "exact,layered,single"
 
 /// All that `render` and `view` can be told. Zero or NULL means "not given" where a default depends on the
 /// model.
@@ -27,7 +27,6 @@ typedef struct vtOptions {
     const char* table;
     const char* models;
     const char* backSurface;
-    const char* layerSource;
     const char* preset;
     const char* sweep;
     const char* plot;
@@ -41,7 +40,7 @@ typedef struct vtOptions {
     bool hasCamera, hasTarget, hasFov;
     int cameraIndex; ///< of the file's cameras; -1: none of them
     int size[2];
-    int layers, steps, refine, maxEvents, layerSize, cubeSize, topLevel;
+    int layers, steps, refine, maxEvents, layerSize;
     int branches; ///< as vtFrame has them
     int samples;  ///< a pixel
     float referenceThreshold;

@@ -3,7 +3,8 @@
 //
 // Instances are no matter of Embree's here: a ray is put to one object after the other, in the object's
 // coordinates and with its direction's length as it comes out of that, so that distances are the world's
-// everywhere. So what a ray meets does not depend on how objects are arranged in a search structure.
+// everywhere. So what a ray meets does not depend on how objects are arranged in a search structure; where
+// there are many, one only leaves out those that lie beside all rays (reference_boxes.c).
 #include "reference.h"
 
 #include <assert.h>
@@ -73,7 +74,10 @@ static vtResult fillReference(vtReference* reference, vtError* error)
             }
         }
     }
-    return vtSucceed(error);
+    return vtReference_SortObjects(reference)
+               ? vtSucceed(error)
+               : vtFail(error, vt_errorMemory, "reference: Embree cannot hold %u objects",
+                        reference->objectCount);
 }
 
 vtResult vtCreateReference(const vtScene* scene, vtReference** reference, vtError* error)
@@ -113,6 +117,9 @@ void vtDestroyReference(vtReference* reference)
         if (reference->meshes[i] != NULL) {
             rtcReleaseScene(reference->meshes[i]);
         }
+    }
+    if (reference->boxes != NULL) {
+        rtcReleaseScene(reference->boxes);
     }
     if (reference->device != NULL) {
         rtcReleaseDevice(reference->device);
@@ -234,7 +241,16 @@ void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths
         meetings[lane].glassCount = 0;
     }
     const float margin = VT_TOUCH_DISTANCE * reference->extent;
+    uint64_t objects[VT_OBJECT_WORDS];
+    vtReference_FindObjects(reference, paths, numbers, count, coherent, objects);
     for (uint32_t object = 0; object < reference->objectCount; ++object) {
+        if (objects[object / 64] == 0) {
+            object |= 63; // none of these
+            continue;
+        }
+        if ((objects[object / 64] >> object % 64 & 1) == 0) {
+            continue;
+        }
         const vtPlacedObject* placed = &reference->objects[object];
         bool any = false;
         for (int lane = 0; lane < count && !any; ++lane) {

@@ -27,6 +27,9 @@ typedef struct vtReferenceDef {
     /// what refracts is followed, without chance, down to paths of 0.002 of the light. Concerns the radiance
     /// only.
     bool fresnel;
+    /// The radiance only, as fast as it goes: directions, events, states and reflections stay NULL. Needs an
+    /// environment.
+    bool onlyPicture;
     int threads; ///< 1 to VT_MAX_THREADS; 0: as many as there are processors. The picture is the same.
     /// Called now and then from the calling thread with the share done, 0 to 1; NULL: not at all.
     void (*progress)(float share, void* userData);

@@ -12,6 +12,7 @@ struct vtReference {
     const vtScene* scene;
     RTCDevice device;
     RTCScene* meshes;        ///< one for each mesh of the scene, in its own coordinates; NULL: no object's
+    RTCScene boxes;          ///< of the objects, where there are many; else NULL
     vtPlacedObject* objects; ///< glass, then what is opaque
     uint32_t objectCount, glassCount;
     float extent; ///< of the coordinates: what small distances are measured by
@@ -82,6 +83,17 @@ typedef struct vtPathRules {
 /// Fills an empty Embree scene with a mesh's triangles, and one with a relief without any.
 bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh);
 bool vtFillReliefScene(RTCDevice device, RTCScene scene, const vtHeightField* field);
+
+/// A bit an object.
+#define VT_OBJECT_WORDS ((VT_MAX_OBJECTS + 63) / 64)
+
+/// Builds the boxes' hierarchy where there are objects enough. False where memory is short.
+bool vtReference_SortObjects(vtReference* reference);
+
+/// The bits of the objects whose boxes a packet's rays can meet, of all where there are few.
+void vtReference_FindObjects(const vtReference* reference, const vtReferencePath* paths,
+                             const uint32_t* numbers, int count, bool coherent,
+                             uint64_t objects[VT_OBJECT_WORDS]);
 
 /// What is next for `count` paths, 1 to VT_PACKET, given by their numbers. `coherent`: neighbours go much the
 /// same way.

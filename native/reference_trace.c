@@ -160,14 +160,15 @@ static void addSamples(const Job* job, const Tile* tile, const vtPathList* list)
 
 static bool traceTile(const Job* job, const Tile* tile, vtPathList* list)
 {
-    if (!traceCentres(job, tile, list)) {
+    const bool onlyPicture = job->def->onlyPicture;
+    if (!onlyPicture && !traceCentres(job, tile, list)) {
         return false;
     }
     if (job->image->radiance == NULL) {
         return true;
     }
     // Where one sample is asked for the centres' paths are it, unless there are more than these.
-    const bool again = job->samples > 1 || job->rules.fresnel;
+    const bool again = onlyPicture || job->samples > 1 || job->rules.fresnel;
     for (int sample = 0; sample < job->samples; ++sample) {
         if (again && !followSamples(job, tile, sample, list)) {
             return false;
@@ -240,17 +241,19 @@ static vtResult checkDef(const vtReferenceDef* def, vtError* error)
 static vtResult createImage(const vtReferenceDef* def, vtReferenceImage* image, vtError* error)
 {
     const size_t count = (size_t)def->frame->width * (size_t)def->frame->height;
+    const bool centres = !def->onlyPicture;
     *image = (vtReferenceImage){
         .width = def->frame->width,
         .height = def->frame->height,
-        .directions = malloc(3 * sizeof(float) * count),
-        .events = malloc(count),
-        .states = malloc(count),
-        .reflections = malloc(count),
+        .directions = centres ? malloc(3 * sizeof(float) * count) : NULL,
+        .events = centres ? malloc(count) : NULL,
+        .states = centres ? malloc(count) : NULL,
+        .reflections = centres ? malloc(count) : NULL,
         .radiance = def->environment != NULL ? calloc(3 * count, sizeof(float)) : NULL,
     };
-    if (image->directions == NULL || image->events == NULL || image->states == NULL ||
-        image->reflections == NULL || (def->environment != NULL && image->radiance == NULL)) {
+    const bool hasCentres = image->directions != NULL && image->events != NULL && image->states != NULL &&
+                            image->reflections != NULL;
+    if ((centres && !hasCentres) || (def->environment != NULL && image->radiance == NULL)) {
         vtDestroyReferenceImage(image);
         return vtFail(error, vt_errorMemory, "reference: out of memory for %d x %d", def->frame->width,
                       def->frame->height);
@@ -274,10 +277,12 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
                            vtError* error)
 {
     assert(reference != NULL && def != NULL && def->frame != NULL && image != NULL);
+    assert(def->environment != NULL || !def->onlyPicture);
     *image = (vtReferenceImage){0};
     vtLighting lighting = {0};
     vtResult result = checkDef(def, error);
-    if (result == vt_ok && def->environment != NULL) {
+    const bool hasOpaque = reference->glassCount < reference->objectCount;
+    if (result == vt_ok && def->environment != NULL && hasOpaque) {
         result = vtCreateLighting(def->environment, &lighting, error);
     }
     if (result == vt_ok) {

@@ -112,26 +112,13 @@ static vtResult drawLayerSheet(vtRenderer* renderer, const vtFrame* frame, Outpu
 
 static void sayLayers(const vtFrame* frame, const vtRendererInfo* info)
 {
-    const vtFrame resolved = vtResolveFrame(frame);
     const int layers = vtFrame_LayerCount(frame);
     if (layers > 0) {
         fprintf(stderr, "vitrine: %d layers of %d x %d\n", layers, info->layerWidth, info->layerHeight);
+    } else if (vtTechnique_Row(frame->technique)->traces) {
+        fprintf(stderr, "vitrine: hierarchies and vertices take %.1f MB, targets and pictures %.1f MB\n",
+                (double)info->meshBytes / 1e6, (double)info->textureBytes / 1e6);
     }
-    if (frame->technique != vt_techniqueExact) {
-        return;
-    }
-    fprintf(stderr, "vitrine: preset %s: %d layers of %d x %d %s, %.1f MB", vtPresetName((int)frame->preset),
-            resolved.layers, resolved.cubeSize, resolved.cubeSize,
-            frame->layerSource == vt_layersFromEye ? "from the eye" : "along three axes",
-            (double)vtFrame_CubeBytes(frame) / 1e6);
-    for (int preset = 0; preset < vt_presetCount; ++preset) {
-        vtFrame other = vtDefaultFrame();
-        other.layerSource = frame->layerSource;
-        other.preset = (vtPreset)preset;
-        fprintf(stderr, "%s%s %.1f", preset == 0 ? " (" : ", ", vtPresetName(preset),
-                (double)vtFrame_CubeBytes(&other) / 1e6);
-    }
-    fprintf(stderr, " MB) for each mesh\n");
 }
 
 /// `ior`: of all glass, 0: there are several.

@@ -191,10 +191,12 @@ static vtResult addTimes(Page* page, const Model* model, vtError* error)
 {
     vtReference* reference;
     vtResult result = vtCreateReference(&page->session.input.scene, &reference, error);
-    vtTiming drawn[2], traced[2];
+    vtTiming drawn[2];
+    vtTracedTiming traced[2];
     for (int i = 0; i < 2 && result == vt_ok; ++i) {
         vtFrame frame = frameAt(page, i == 0 ? 2.0f : 1.0f);
-        const vtTimingDef def = {page->session.renderer, &frame, 1, reference, 0, 0, 0.0};
+        const vtTimingDef def = {
+            .renderer = page->session.renderer, .frames = &frame, .count = 1, .reference = reference};
         result = vtTimeFrames(&def, &drawn[i], &traced[i], NULL, error);
     }
     vtDestroyReference(reference);
@@ -203,7 +205,7 @@ static vtResult addTimes(Page* page, const Model* model, vtError* error)
                 vtCountTriangles(&page->session.input.scene));
         for (int i = 0; i < 2; ++i) {
             fprintf(page->html, "<td>%.1f ms</td><td>%.1f ms</td><td>%.2f</td>", drawn[i].wall,
-                    traced[i].wall, drawn[i].wall / traced[i].wall);
+                    traced[i].directions.wall, drawn[i].wall / traced[i].directions.wall);
         }
         fprintf(page->html, "</tr>\n");
     }

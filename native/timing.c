@@ -54,19 +54,31 @@ typedef struct Samples {
     double wall[vt_maxTimingRounds], processor[vt_maxTimingRounds];
 } Samples;
 
-/// Draws frame `index`, or traces where it is def->count, as round `round`; below 0: to warm up.
+/// What the reference takes turns with.
+enum { tracedDirections = 0, tracedStrict, tracedPicture, tracedCount };
+
+static vtResult traceOne(const vtTimingDef* def, int kind, vtError* error)
+{
+    vtReferenceImage image;
+    const vtReferenceDef reference = {
+        .frame = &def->frames[0],
+        .environment = kind == tracedDirections ? NULL : def->environment,
+        .onlyPicture = kind != tracedDirections,
+        .fresnel = kind == tracedPicture,
+        .threads = def->threads,
+    };
+    const vtResult result = vtReference_Trace(def->reference, &reference, &image, error);
+    vtDestroyReferenceImage(&image);
+    return result;
+}
+
+/// Draws frame `index`, or traces from def->count on, as round `round`; below 0: to warm up.
 static vtResult timeOne(const vtTimingDef* def, int index, int round, Samples* samples, vtError* error)
 {
-    vtResult result;
     const double wall = vtNow(), processor = vtProcessorTime();
-    if (index < def->count) {
-        result = vtRenderer_DrawImage(def->renderer, &def->frames[index], NULL, error);
-    } else {
-        vtReferenceImage image;
-        vtReferenceDef reference = {.frame = &def->frames[0], .threads = def->threads};
-        result = vtReference_Trace(def->reference, &reference, &image, error);
-        vtDestroyReferenceImage(&image);
-    }
+    const vtResult result = index < def->count
+                                ? vtRenderer_DrawImage(def->renderer, &def->frames[index], NULL, error)
+                                : traceOne(def, index - def->count, error);
     samples->wall[round < 0 ? 0 : round] = vtNow() - wall;
     samples->processor[round < 0 ? 0 : round] = vtProcessorTime() - processor;
     return result;
@@ -77,11 +89,12 @@ static vtTiming medians(Samples* samples, int rounds)
     return (vtTiming){vtMedian(samples->wall, rounds), vtMedian(samples->processor, rounds)};
 }
 
-vtResult vtTimeFrames(const vtTimingDef* def, vtTiming* timings, vtTiming* traced, int* rounds,
+vtResult vtTimeFrames(const vtTimingDef* def, vtTiming* timings, vtTracedTiming* traced, int* rounds,
                       vtError* error)
 {
     static const int warmUp = 1, leastRounds = 3;
-    const int candidates = def->count + (def->reference != NULL);
+    const int traces = def->reference == NULL ? 0 : def->environment == NULL ? 1 : tracedCount;
+    const int candidates = def->count + traces;
     const int wanted = def->rounds > 0 ? def->rounds : vt_timingRounds;
     if (def->count > vt_maxTimedFrames) {
         return vtFail(error, vt_errorArgument, "timing: %d frames; at most %d", def->count,
@@ -107,7 +120,11 @@ vtResult vtTimeFrames(const vtTimingDef* def, vtTiming* timings, vtTiming* trace
         timings[i] = medians(&samples[i], round);
     }
     if (def->reference != NULL && result == vt_ok) {
-        *traced = medians(&samples[def->count], round);
+        *traced = (vtTracedTiming){.directions = medians(&samples[def->count], round)};
+    }
+    if (traces == tracedCount && result == vt_ok) {
+        traced->strict = medians(&samples[def->count + tracedStrict], round);
+        traced->picture = medians(&samples[def->count + tracedPicture], round);
     }
     if (rounds != NULL) {
         *rounds = round;

@@ -29,14 +29,23 @@ typedef struct vtTimingDef {
     vtRenderer* renderer;
     const vtFrame* frames;
     int count;                    ///< of frames, 1 to vt_maxTimedFrames
-    const vtReference* reference; ///< takes its turn with the first frame's view, directions only; NULL: not
-    int threads;                  ///< of the reference; 0: as many as there are processors
-    int rounds;                   ///< 1 to vt_maxTimingRounds; 0: vt_timingRounds
-    double limit;                 ///< seconds after which three rounds are enough; 0: none
+    const vtReference* reference; ///< takes its turns with the first frame's view; NULL: it does not
+    /// Of the reference's pictures; NULL: it traces directions only.
+    const vtEnvironment* environment;
+    int threads;  ///< of the reference; 0: as many as there are processors
+    int rounds;   ///< 1 to vt_maxTimingRounds; 0: vt_timingRounds
+    double limit; ///< seconds after which three rounds are enough; 0: none
 } vtTimingDef;
 
+/// What the reference does for the frame.
+typedef struct vtTracedTiming {
+    vtTiming directions; ///< strict paths
+    vtTiming strict;     ///< the picture of strict paths, one sample; 0 without an environment
+    vtTiming picture;    ///< the same with Fresnel reflection and all that branches off; 0 without one
+} vtTracedTiming;
+
 /// Median time of each frame, GL finished, drawn in turns so that a busy machine slows all alike; one more
-/// drawing of each before warms it up. Where there is a reference, *traced is its median. *rounds, where not
-/// NULL: how many there were.
-vtResult vtTimeFrames(const vtTimingDef* def, vtTiming* timings, vtTiming* traced, int* rounds,
+/// drawing of each before warms it up. Where there is a reference, *traced has its medians. *rounds, where
+/// not NULL: how many there were.
+vtResult vtTimeFrames(const vtTimingDef* def, vtTiming* timings, vtTracedTiming* traced, int* rounds,
                       vtError* error);

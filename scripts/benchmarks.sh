@@ -21,16 +21,17 @@ trap 'rm -rf "$scratch"' EXIT
 # Benchmarks
 
 `vitrine bench`, made by `scripts/benchmarks.sh`. Every technique's frames are drawn in turns with the reference tracer
-(Embree, directions only, on the same processors): read the ratios, the times are those of one machine on one day.
-`exact`, `layered` and `single` work in image space; `bvh` walks a hierarchy of the triangles in the same kind of
-fragment shader, as a yardstick ([techniques.md](techniques.md)).
+(Embree, on the same processors): read the ratios, the times are those of one machine on one day.
 
-- *frame*: median time of a frame, GL finished; *CPU*: the processors' time for it, all threads, which other programs
-  disturb less. Ratios to Embree and to `layered` of both.
+- *frame*: median time of a frame of strict paths, which only refract, or reflect where they must, GL finished; *CPU*: the
+  processors' time for it, all threads, which other programs disturb less. Ratios of both *to Embree*, which traces the
+  same paths and stores their directions; *to its strict picture*, light at the paths' ends included; and to `layered`.
+- *picture*: the same of the frame as it is by default, with Fresnel reflection and the preset's branches; Embree's is that
+  of `vitrine render -t reference`, every reflection followed down to 0.002 of the light.
 - *within 1°, 5°, lost*: exit directions against the reference, on pixels whose true path meets at most four surfaces.
-- *reads*: texture reads of the refract stage, counted by the shaders themselves, a pixel that sees glass and an event.
-- *textures*: all that a renderer holds that draws only this technique, but the mesh; *build*: cube or hierarchy, once
-  a mesh.
+- *reads*: texture reads of the path, counted by the shaders themselves, a pixel that sees glass and an event.
+- *textures*: all that a renderer holds that draws only this technique, but the mesh; *bytes a triangle*: the mesh on the
+  GPU; *upload*: the scene to the GPU, the hierarchy included unless *build* says what it takes by itself.
 TEXT
   [ "${ROUNDS:-9}" -ge 9 ] || printf '\nMedians of few frames: read the CPU ratios.\n'
   for model in ${models:+"$models/bunny_69666.glb"} knot torus; do
@@ -46,10 +47,10 @@ TEXT
 
 ## Objects
 
-Copies of the knot, side by side: each as large in the picture as the one alone, so that the pixels that see glass grow
-with their number. Then one behind the other, all as large in the picture: the same pixels, and ever more surfaces. *CPU
-a glass pixel* and *refract alone* (the CPU time of that stage) are to those of one object; copies share all memory of
-their mesh.
+Copies of the knot side by side, 1 to 1,000, as large as all stay inside the picture: about as many pixels see glass,
+and there are ever more objects. Then one behind the other, all as large in the picture: the same pixels, and ever more
+surfaces. *CPU a glass pixel* and *paths alone* (the CPU time of the stage that follows them) are to those of one
+object; copies share all memory of their mesh, Embree's too, which finds them by a hierarchy over their boxes.
 
 ![time over objects](pictures/bench-objects.svg)
 
@@ -63,8 +64,8 @@ TEXT
 
 The pattern `ripples` in ever more samples, by its heights alone (`heightfield`, no triangles are made) and as triangles
 (`exact`); the picture hardly changes. *memory* is that of the heights with their pyramid, or of the mesh, beside the
-GPU; *GPU memory* that of the same, and of the layers; *triangulation* makes the mesh, *upload* sends heights or mesh to
-the GPU, *build* peels the layers. [reliefs.md](reliefs.md) says what follows.
+GPU; *GPU memory* that of the same there; *triangulation* makes the mesh, *upload* sends heights or mesh to the GPU.
+[reliefs.md](reliefs.md) says what follows.
 
 ![time over samples](pictures/bench-relief.svg)
 

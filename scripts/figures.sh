@@ -12,7 +12,7 @@ bunny=""
 bash scripts/gallery.sh "$pictures"
 rm -f "$pictures"/{bottle,torus,sphere}.png
 
-for id in kay-linear kay-nonlinear kay-thickness single wyman oliveira layered exact bvh reference; do
+for id in kay-linear kay-nonlinear kay-thickness single wyman oliveira layered exact reference; do
   "$vitrine" render knot -t "$id" -e sky -r 320,320 -o "$pictures/technique-$id.png"
 done
 "$vitrine" render ripples -t heightfield -e sky -r 320,320 -o "$pictures/technique-heightfield.png"

@@ -10,7 +10,6 @@ layout(location = 0) out uvec4 o_sum;
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    uvec2 bits = texelFetch(u_radiance, pixel, 0).rg;
-    vec4 light = min(vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y)), 1.0);
-    o_sum = floatBitsToUint(uintBitsToFloat(texelFetch(u_sum, pixel, 0)) + light);
+    vec4 light = min(uintBitsToFloat(readTexel(u_radiance, pixel, u_size.xy)), 1.0);
+    o_sum = floatBitsToUint(uintBitsToFloat(readTexel(u_sum, pixel, u_size.xy)) + light);
 }

@@ -35,40 +35,33 @@
 // Packed normal of a texel without a surface: packSnorm2x16 never gives -32768.
 #define VT_NO_NORMAL 0x80008000u
 
-// Triangle records (src/scene/triangles.h) lie in a texture so many to a row; four texels each.
-#define VT_TRIANGLES_A_ROW 512
 #define VT_NO_TRIANGLE 0xffffffffu
 
-// The layered depth cube (src/passes/cube.h). A stored surface is its depth, 0 to VT_CUBE_DEPTH, times two,
-// plus one where its normal points away from the cube's near side; VT_CUBE_NONE: no surface.
-#define VT_MAX_CUBE_LEVELS 10
-#define VT_CUBE_DEPTH 32766.0
-#define VT_CUBE_NONE 65535u
+// Records of hierarchies (src/scene/hierarchy.h) lie in a texture so many to a row; four texels each. Groups of siblings
+// that may wait on a search's way down.
+#define VT_RECORD_WORDS 16
+#define VT_RECORDS_A_ROW 512
+#define VT_HIERARCHY_STACK 10
 
-// The hierarchy of technique `bvh` (src/scene/bvh_records.h): steps along a side of the object's box, nodes that
-// may wait on the way down, bit from which a leaf counts its triangles; nodes and triangles a row of texels.
-#define VT_BVH_STEPS 65535.0
-#define VT_BVH_STACK 32
-#define VT_BVH_COUNT_SHIFT 28
-#define VT_BVH_NODES_A_ROW 1024
-#define VT_BVH_TRIANGLES_A_ROW 512
+// Nodes of the tree of objects (src/gl/object_tree.h): so many a row, two texels each.
+#define VT_OBJECT_NODES_A_ROW 512
 
 // The table of objects (src/gl/scene_buffer.h): RGBA32UI texels, a row of them each. Numbers are the bits of floats.
-#define VT_OBJECT_TEXELS 19
-#define VT_OBJECT_LAYERS 0    // four: rows of the matrix from the world to its layers, whose coordinates run from 0 to 1
-#define VT_OBJECT_TRANSFORM 4 // three: rows of the matrix from the world to its own coordinates
-#define VT_OBJECT_EXTENT 7    // of its cube along the axes, own units; number of its layers times two, plus one if opaque
-#define VT_OBJECT_LOW 8       // its box, world; its diagonal
-#define VT_OBJECT_HIGH 9      // its box, world; 0
-#define VT_OBJECT_GLASS 10    // index of refraction, absorption a unit of length (red, green, blue)
-#define VT_OBJECT_COLOR 11    // tint or base colour; number of its first attribute record, or VT_NO_TRIANGLE
-#define VT_OBJECT_SURFACE 12  // metallic, roughness, checker squares a unit of texture coordinates, 0
-#define VT_OBJECT_EMISSIVE 13 // light of its own; 0
-#define VT_OBJECT_IMAGES 14   // base colour and metallic-roughness image, or VT_NO_TRIANGLE; number of its first triangle; 0
-#define VT_OBJECT_FRUSTUM 15  // layered: tangents of its layers' frustum, left, bottom, right, top
-#define VT_OBJECT_DEPTHS 16   // layered: of that frustum: near, far, 1 / (far - near); 0
-#define VT_OBJECT_OWN_LOW 17  // box of its mesh, own coordinates; 1 where it is searched by its heights
-#define VT_OBJECT_OWN_HIGH 18 // the same; side of a cell of those heights
+#define VT_OBJECT_TEXELS 16
+#define VT_OBJECT_TRANSFORM 0   // three: rows of the matrix from the world to its own coordinates
+#define VT_OBJECT_GRID_LOW 3    // where the grid of its hierarchy begins, own units; number of its first record
+#define VT_OBJECT_GRID_SCALE 4  // grid steps a unit; 1 where both sides of its surface count
+#define VT_OBJECT_LOW 5         // its box, world; its diagonal
+#define VT_OBJECT_HIGH 6        // its box, world; layered: number of its layers
+#define VT_OBJECT_GLASS 7       // index of refraction, absorption a unit of length (red, green, blue)
+#define VT_OBJECT_COLOR 8       // tint or base colour; number of its first attribute record, or VT_NO_TRIANGLE
+#define VT_OBJECT_SURFACE 9     // metallic, roughness, checker squares a unit of texture coordinates, 0
+#define VT_OBJECT_EMISSIVE 10   // light of its own; 0
+#define VT_OBJECT_IMAGES 11     // base colour and metallic-roughness image, or VT_NO_TRIANGLE; 0; 0
+#define VT_OBJECT_FRUSTUM 12    // layered: tangents of its layers' frustum, left, bottom, right, top
+#define VT_OBJECT_DEPTHS 13     // layered: of that frustum: near, far, 1 / (far - near); 0
+#define VT_OBJECT_OWN_LOW 14    // box of its mesh, own coordinates; 1 where it is searched by its heights
+#define VT_OBJECT_OWN_HIGH 15   // the same; side of a cell of those heights
 
-// Attribute records: three texels a triangle, one a corner: texture coordinates (bits of floats), colour (three
-// halves); as many triangles a row as triangle records.
+// Attribute records: a texel a corner of a record that is a leaf, as many records a row: texture coordinates (bits of
+// floats), colour (three halves).

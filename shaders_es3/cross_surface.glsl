@@ -1,20 +1,31 @@
 // A path meets a surface of glass. Needs media, objects, optics and path.
 
-// Index of refraction and absorption of a medium by its number plus one; 0 is air.
+// Index of refraction and absorption of an object's glass, and its tint. Of a single object they are read once.
+#ifdef ONE_OBJECT
+vec4 g_glass;
+vec3 g_tint;
+#define readGlass(object) g_glass
+#define readTint(object) g_tint
+#else
+#define readGlass(object) objectNumbers(object, VT_OBJECT_GLASS)
+#define readTint(object) objectNumbers(object, VT_OBJECT_COLOR).rgb
+#endif
+
+// Of a medium by its number plus one; 0 is air.
 vec4 glassOf(uint id)
 {
-    return id == 0u ? vec4(1.0, 0.0, 0.0, 0.0) : objectNumbers(int(id) - 1, VT_OBJECT_GLASS);
+    return mix(vec4(1.0, 0.0, 0.0, 0.0), readGlass(max(int(id) - 1, 0)), bvec4(id != 0u));
 }
 
 // What is left of the path's light after a distance in the medium it is in.
-void absorb(inout Path p, uvec4 media, float distance)
+void absorb(inout Path p, Media media, float distance)
 {
     p.transmittance *= exp(-distance * glassOf(topOf(media)).yzw);
 }
 
 // Takes the path, which has come `distance` and met an object's surface, through it: an event, where indices differ, or
 // straight on. `also`: another object whose surface is at the same place, or -1. True where it was an event.
-bool crossSurface(inout Path p, inout uvec4 media, float distance, SurfaceHit hit, int also)
+bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hit, int also)
 {
     vec4 before = glassOf(topOf(media));
     p.transmittance *= exp(-distance * before.yzw);
@@ -25,7 +36,7 @@ bool crossSurface(inout Path p, inout uvec4 media, float distance, SurfaceHit hi
         media = toggle(media, id);
         before = glassOf(topOf(media));
     }
-    uvec4 next = toggle(media, id);
+    Media next = toggle(media, id);
     next = also >= 0 ? toggle(next, uint(also + 1)) : next;
     float eta = before.x / glassOf(topOf(next)).x;
     if (eta == 1.0) {
@@ -41,14 +52,20 @@ bool crossSurface(inout Path p, inout uvec4 media, float distance, SurfaceHit hi
     if (reflected) {
         return true;
     }
-    vec3 tint = objectNumbers(hit.object, VT_OBJECT_COLOR).rgb;
+    vec3 tint = readTint(hit.object);
+#ifndef STRICT
     if (u_scene.z != 0) {
         float F = fresnel(-dot(N, I), eta);
         vec3 R = reflect(I, N);
         R = dot(R, G) > 0.0 ? R : reflect(I, G);
-        // What the first surface reflects towards the eye is seen to by shade.frag. Later the path follows the
-        // stronger part.
+        // What the first surface reflects towards the eye is kept apart: it is never too little to be followed. (Of
+        // techniques with a shade pass, shade.frag sees to it.) Later the path follows the stronger part.
         bool isFirst = p.events == 1 && !leaving;
+#ifdef KEEPS_FIRST
+        p.firstPosition = isFirst ? p.position : p.firstPosition;
+        p.firstDirection = isFirst ? R : p.firstDirection;
+        p.firstShare = isFirst ? F * strongest(p.transmittance) : p.firstShare;
+#endif
         if (!isFirst && F > 0.5) {
             setAside(p, p.direction, 1.0 - F, next);
             p.transmittance *= F;
@@ -60,6 +77,7 @@ bool crossSurface(inout Path p, inout uvec4 media, float distance, SurfaceHit hi
         }
         p.transmittance *= 1.0 - F;
     }
+#endif
     p.transmittance *= tint;
     media = next;
     return true;

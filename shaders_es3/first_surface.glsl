@@ -4,7 +4,7 @@ uniform usampler2D u_surface;
 // `direction` is the eye ray's. Only pixels that see glass or something opaque are drawn (src/passes/refract.c).
 SurfaceHit firstSurface(out vec3 direction)
 {
-    uvec4 surface = texelFetch(u_surface, ivec2(gl_FragCoord.xy), 0);
+    uvec4 surface = readPixel(u_surface, u_size.xy);
     if (int(surface.w) > u_scene.x) {
         discard; // something opaque: passes/shade.c
     }
@@ -16,8 +16,8 @@ SurfaceHit firstSurface(out vec3 direction)
 }
 
 // What the eye is within, as far as the first surface tells: seen from behind, it is that surface's object.
-uvec4 mediaAtEye(SurfaceHit hit, vec3 direction)
+Media mediaAtEye(SurfaceHit hit, vec3 direction)
 {
     bool isWithin = dot(hit.flatNormal, direction) > 0.0;
-    return uvec4(isWithin ? uint(hit.object + 1) : 0u, 0u, 0u, 0u);
+    return isWithin ? toggle(AIR, uint(hit.object + 1)) : AIR;
 }

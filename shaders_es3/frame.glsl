@@ -13,10 +13,15 @@ layout(std140) uniform Frame
     vec4 u_kay;      // largest and smallest transmittance, power, wall thickness
     ivec4 u_search;  // layers, linear steps, binary steps, events
     ivec4 u_size;    // picture width, height, layer width, height
-    ivec4 u_cube;    // texels a side, layers, axes (3; 1: from the eye), highest level of the pyramid
     ivec4 u_scene;   // objects of glass, objects, Fresnel reflection, the technique finds what is opaque itself
     ivec4 u_output;  // vtOutput, layer, vtEnvironmentKind, transparent background
 };
+
+// A texel by its column and row. Software renderers take half as long for it as for texelFetch. For textures of one
+// level that are not filtered, as src/gl/target.c makes them; beyond the edge it is the texel at the edge.
+#define readTexel(s, texel, size) textureLod(s, (vec2(texel) + 0.5) / vec2(size), 0.0)
+#define readPixel(s, size) textureLod(s, gl_FragCoord.xy / vec2(size), 0.0) // of a texture as large as what is drawn
+#define readLayer(s, texel, layer, size) textureLod(s, vec3((vec2(texel) + 0.5) / vec2(size), layer), 0.0)
 
 // Unit world direction through a point of the plane at depth 1.
 vec3 cameraDirection(vec2 tangent)

@@ -10,7 +10,7 @@ bool layerNormal(ivec2 pixel, int layer, vec3 view, out vec3 normal)
 {
     uint bits = VT_NO_NORMAL;
     if (all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, u_size.zw))) {
-        bits = texelFetch(u_layerNormals, ivec3(pixel, layer), 0).r;
+        bits = readLayer(u_layerNormals, pixel, layer, u_size.zw).r;
     }
     normal = unpackNormal(bits);
     normal = dot(normal, view) > 0.0 ? -normal : normal;

@@ -26,19 +26,15 @@ bool facesRightWay(vec3 normal, vec3 direction, bool inside)
 }
 
 // A wall between two columns: its normal runs from that of the surface before to that of the one behind.
-bool wallBetween(Layers layers, vec3 inner, vec3 outer, vec3 direction, bool inside, vec3 position, out SurfaceHit hit)
+bool wallBetween(Layers layers, vec3 inner, Column innerColumn, Column outerColumn, vec3 direction, bool inside, out vec3 normal)
 {
     ivec2 texel = layerTexel(inner.xy);
-    Column column = readColumn(layers, texel, inner.z);
-    bool isWall = column.inside && column.after >= 0 && !readColumn(layers, layerTexel(outer.xy), outer.z).inside;
-    uvec2 before = layerNormals(layers, max(column.before, 0), texel);
-    uvec2 after = layerNormals(layers, max(column.after, 0), texel);
-    float share = (inner.z - column.beforeDepth) / max(column.afterDepth - column.beforeDepth, 1.0);
-    vec3 normal = mix(unpackNormal(before.x), unpackNormal(after.x), share);
+    bool isWall = isInside(innerColumn) && innerColumn.after != 0 && !isInside(outerColumn);
+    uvec2 before = layerNormals(layers, highestBit(innerColumn.before), texel);
+    uvec2 after = layerNormals(layers, lowestBit(innerColumn.after), texel);
+    float share = (inner.z - innerColumn.beforeDepth) / max(innerColumn.afterDepth - innerColumn.beforeDepth, 1.0);
+    normal = mix(unpackNormal(before.x), unpackNormal(after.x), share);
     float size = length(normal);
-    hit.position = position;
-    hit.normal = size > 1e-3 ? normal / size : (inside ? direction : -direction);
-    hit.flatNormal = hit.normal;
-    hit.object = 0;
-    return isWall && facesRightWay(hit.normal, direction, inside);
+    normal = size > 1e-3 ? normal / size : (inside ? direction : -direction);
+    return isWall && facesRightWay(normal, direction, inside);
 }

@@ -8,11 +8,11 @@ layout(location = 0) out uvec4 o_depths;
 
 void main()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy);
+    vec2 place = gl_FragCoord.xy / vec2(u_size.zw);
     uint odd = VT_DEPTH_NONE, even = VT_DEPTH_NONE; // the last surface seen of layers 1, 3, ... and 2, 4, ...
     uvec4 depths = uvec4(VT_DEPTH_NONE); // WebGL indexes no output by a variable
     for (int layer = 0; layer < u_search.x && layer < 4 * (u_group + 1); ++layer) {
-        uint depth = texelFetch(u_layerDepths, ivec3(texel, u_firstLayer + layer), 0).r;
+        uint depth = textureLod(u_layerDepths, vec3(place, u_firstLayer + layer), 0.0).r;
         bool isOdd = layer % 2 == 0; // layers count from one in the paper
         depth = depth != VT_DEPTH_NONE ? depth : isOdd ? odd : even;
         if (isOdd) {

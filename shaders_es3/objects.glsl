@@ -10,7 +10,7 @@ struct SurfaceHit {
 
 uvec4 objectBits(int object, int part)
 {
-    return texelFetch(u_objects, ivec2(part, object), 0);
+    return readTexel(u_objects, ivec2(part, object), ivec2(VT_OBJECT_TEXELS, u_scene.y));
 }
 
 vec4 objectNumbers(int object, int part)
@@ -42,20 +42,3 @@ vec3 normalToWorld(Transform t, vec3 n)
 }
 
 const float NOWHERE = 1e30; // farther than anything
-
-// Where a path meets an object.
-struct Meeting {
-    float distance; // in the world
-    uint triangle;
-};
-
-// Does a ray come into the object's box before `farthest`?
-bool entersBox(int object, vec3 origin, vec3 direction, float farthest)
-{
-    vec3 inverse = 1.0 / direction; // infinite where it is parallel to a side
-    vec3 a = (objectNumbers(object, VT_OBJECT_LOW).xyz - origin) * inverse;
-    vec3 b = (objectNumbers(object, VT_OBJECT_HIGH).xyz - origin) * inverse;
-    vec3 enters = min(a, b), leaves = max(a, b);
-    float enter = max(max(enters.x, enters.y), enters.z), leave = min(min(leaves.x, leaves.y), leaves.z);
-    return enter <= min(leave, farthest) && leave >= 0.0;
-}

@@ -10,7 +10,7 @@ layout(location = 1) out uint o_depth;
 void main()
 {
 #ifndef FARTHEST
-    if (gl_FragCoord.z <= texelFetch(u_previousDepth, ivec2(gl_FragCoord.xy), 0).r) {
+    if (gl_FragCoord.z <= readPixel(u_previousDepth, u_size.zw).r) {
         discard;
     }
 #endif

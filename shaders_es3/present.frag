@@ -37,8 +37,7 @@ vec3 layerColor()
 
 void main()
 {
-    uvec2 bits = texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0).rg;
-    vec4 light = vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y));
+    vec4 light = uintBitsToFloat(readTexel(u_radiance, ivec2(gl_FragCoord.xy), u_size.xy));
     if (u_output.x == VT_OUTPUT_PICTURE) {
         o_color = vec4(linearToSrgb(min(light.rgb, 1.0)), light.a);
     } else if (u_output.x == VT_OUTPUT_ANALYSIS) {

@@ -23,7 +23,7 @@ void main()
         transmittance *= pow(u_optics.y, path);
 
         // The shift is a length at the surface's depth: as many pixels.
-        float stored = float(texelFetch(u_layerDepths, ivec3(ivec2(floor(place)), layer), 0).r);
+        float stored = float(readLayer(u_layerDepths, floor(place), layer, u_size.zw).r);
         float depth = u_layerDepth.x + stored / (VT_DEPTH_SCALE * u_layerDepth.z);
         place += shift / depth * vec2(u_size.xy) / (u_pictureFrustum.zw - u_pictureFrustum.xy);
         ++events;

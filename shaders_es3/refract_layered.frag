@@ -12,7 +12,8 @@ bool nextSurface(Path p, uvec4 media, inout SurfaceHit hit, inout int also, out 
     float same = 0.0; // surfaces nearer to one another than a texel lie at one place
     also = -1;
     nearest = NOWHERE;
-    for (int object = 0; object < u_scene.x; ++object) {
+    int object = 0;
+    do {
         Layers layers = layersOf(object);
         bool start = object == from || object == fromToo;
         SurfaceHit there;
@@ -29,7 +30,8 @@ bool nextSurface(Path p, uvec4 media, inout SurfaceHit hit, inout int also, out 
                 same = texel;
             }
         }
-    }
+        ++object;
+    } while (object < u_scene.x);
     return nearest < NOWHERE;
 }
 
@@ -42,7 +44,7 @@ void main()
     float nearest = length(hit.position - u_eye.xyz);
     int status = VT_PATH_LOST, also = -1;
 #ifdef WITH_OPAQUE
-    OpaqueHit opaque = OpaqueHit(0.0, VT_NO_TRIANGLE, -1);
+    OpaqueHit opaque = NOTHING_OPAQUE;
 #endif
     for (int i = 0; i < MOST_SURFACES; ++i) {
         crossSurface(p, media, nearest, hit, also);
@@ -54,9 +56,9 @@ void main()
         bool found = nextSurface(p, media, hit, also, nearest);
 #ifdef WITH_OPAQUE
         opaque = searchOpaque(p.position, p.direction, nearest);
-        if (opaque.triangle != VT_NO_TRIANGLE) {
-            absorb(p, media, opaque.distance);
-            p.position += opaque.distance * p.direction;
+        if (opaque.hit.triangle != VT_NO_TRIANGLE) {
+            absorb(p, media, opaque.hit.distance);
+            p.position += opaque.hit.distance * p.direction;
             status = VT_PATH_OPAQUE;
             break;
         }
@@ -69,7 +71,7 @@ void main()
     }
     writePath(p, status);
 #ifdef WITH_OPAQUE
-    o_end.w = opaque.triangle;
+    o_end.w = opaque.hit.triangle;
     o_light.w = uint(opaque.object + 1);
 #endif
 }

@@ -12,11 +12,11 @@ uniform usampler2D u_lights;
 uniform usampler2D u_asides;
 uniform int u_object;
 
-Path readPath(ivec2 pixel, uvec4 path)
+Path readPath(uvec4 path)
 {
-    uvec4 light = texelFetch(u_lights, pixel, 0), aside = texelFetch(u_asides, pixel, 0);
+    uvec4 light = readPixel(u_lights, u_size.xy), aside = readPixel(u_asides, u_size.xy);
     vec2 middle = unpackHalf2x16(light.y);
-    Path p = startPath(uintBitsToFloat(texelFetch(u_ends, pixel, 0).xyz), uintBitsToFloat(path.xyz));
+    Path p = startPath(uintBitsToFloat(readPixel(u_ends, u_size.xy).xyz), uintBitsToFloat(path.xyz));
     p.transmittance = vec3(unpackHalf2x16(light.x), middle.x);
     p.events = int(path.w >> 8) & 255;
     p.reflected = (int(path.w) & VT_PATH_TIR) != 0;
@@ -28,8 +28,7 @@ Path readPath(ivec2 pixel, uvec4 path)
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    uvec4 before = texelFetch(u_paths, pixel, 0);
+    uvec4 before = readPixel(u_paths, u_size.xy);
     int status = int(before.w) & 255;
     Layers layers = layersOf(u_object);
     uvec4 media = uvec4(0u);
@@ -39,7 +38,7 @@ void main()
     float distance = 0.0;
     if (status == VT_PATH_BACKGROUND) {
         // Case 1: no object so far, and this one where it is seen; u_surface shows no other glass.
-        if (texelFetch(u_surface, pixel, 0).w == 0u) {
+        if (readPixel(u_surface, u_size.xy).w == 0u) {
             discard;
         }
         vec3 view;
@@ -50,7 +49,7 @@ void main()
         found = true;
     } else {
         // Case 2: not found, the path stays as it is. Case 3: found, it goes on from there.
-        p = readPath(pixel, before);
+        p = readPath(before);
         found = status == VT_PATH_EXITED && searchLayers(layers, p.position, p.direction, false, false, NOWHERE, hit);
         bool last = found && p.events >= u_search.w;
         status = last ? VT_PATH_LOST : status;

@@ -27,7 +27,7 @@ void main()
     // d = (theta_t / theta_i) dV + (1 - theta_t / theta_i) dN
     vec2 here = layerPoint(layers, makeLayerRay(layers, hit.position, T1), 0.0).xy;
     float viewDistance = max(backViewDistance(here, view) - length(hit.position - u_eye.xyz), 0.0);
-    float normalDistance = float(texelFetch(u_innerDistances, ivec2(gl_FragCoord.xy), 0).r) / VT_DEPTH_SCALE *
+    float normalDistance = float(readPixel(u_innerDistances, u_size.xy).r) / VT_DEPTH_SCALE *
                            length(u_boundsMax.xyz - u_boundsMin.xyz);
     float incoming = acos(clamp(-dot(view, hit.normal), 0.0, 1.0));
     float refracted = acos(clamp(-dot(T1, hit.normal), 0.0, 1.0));

@@ -46,28 +46,22 @@ float layerScale(Layers layers)
 
 vec4 fourDepths(Layers layers, ivec2 texel, int group)
 {
-    texel = clamp(texel, ivec2(0), u_size.zw - 1);
-    vec4 stored = vec4(texelFetch(u_mergedDepths, ivec3(texel, layers.slot * layerGroups() + group), 0));
+    vec4 stored = groupDepths(layers, texel, group);
     stored *= mix(vec4(1.0), vec4(EMPTY_DEPTH), greaterThan(stored, vec4(VT_DEPTH_SCALE)));
     return layers.depths.x + stored * layerScale(layers);
-}
-
-int bitsOf(bvec4 flags, int group)
-{
-    ivec4 bits = ivec4(flags);
-    return (bits.x + 2 * bits.y + 4 * bits.z + 8 * bits.w) << (4 * group);
 }
 
 // The layers that a point between two texels lies behind. Both sides are multiplied by the depths of both.
 int behindEdge(Layers layers, ivec2 first, ivec2 second, float share, float nearness, float jump)
 {
-    int behind = 0;
+    int behind = 0, group = 0;
     float nearest = step(0.5, share);
-    for (int group = 0; 4 * group < u_search.x; ++group) {
+    do {
         vec4 a = fourDepths(layers, first, group), b = fourDepths(layers, second, group);
         vec4 shares = mix(vec4(share), vec4(nearest), step(jump, abs(a - b)));
         behind += bitsOf(lessThan(a * b * nearness, mix(b, a, shares)), group);
-    }
+        ++group;
+    } while (4 * group < u_search.x);
     return behind;
 }
 
@@ -87,10 +81,10 @@ float onTriangle(bool upper, vec2 point, vec4 corners)
 // The layers that a point of a cell lies behind; `fault`: there is one near it.
 int behindTriangles(Layers layers, ivec2 cell, vec3 point, float jump, out bool fault)
 {
-    int behind = 0;
+    int behind = 0, group = 0;
     fault = false;
     float depth = 1.0 / point.z;
-    for (int group = 0; 4 * group < u_search.x; ++group) {
+    do {
         vec4 a = fourDepths(layers, cell, group), b = fourDepths(layers, cell + ivec2(1, 0), group);
         vec4 c = fourDepths(layers, cell + ivec2(0, 1), group), d = fourDepths(layers, cell + 1, group);
         vec4 least = min(min(a, b), min(c, d)), most = max(max(a, b), max(c, d));
@@ -98,7 +92,8 @@ int behindTriangles(Layers layers, ivec2 cell, vec3 point, float jump, out bool 
         fault = fault || around * ivec4(greaterThan(most - least, vec4(jump))) != ivec4(0);
         vec4 nearness = onTriangle(point.x < point.y, point.xy, 1.0 / a, 1.0 / b, 1.0 / c, 1.0 / d);
         behind += bitsOf(lessThan(vec4(point.z), nearness), group);
-    }
+        ++group;
+    } while (4 * group < u_search.x);
     return behind;
 }
 
@@ -156,10 +151,11 @@ Crossing meetTriangles(Layers layers, Walk walk, bool inside)
     vec3 d = mix(a, b, share);
     float middle = mix(walk.enter, walk.leave, share);
     float slack = ROUNDING * a.z, jump = walk.jump / a.z;
-    for (int layer = 0; layer < u_search.x; ++layer) {
+    int layer = 0;
+    do {
         vec4 stored;
         for (int i = 0; i < 4; ++i) {
-            stored[i] = float(layerDepth(layers, layer, clamp(walk.cell + ivec2(i & 1, i >> 1), ivec2(0), u_size.zw - 1)));
+            stored[i] = layerDepth(layers, layer, clamp(walk.cell + ivec2(i & 1, i >> 1), ivec2(0), u_size.zw - 1));
         }
         stored *= mix(vec4(1.0), vec4(EMPTY_DEPTH), greaterThan(stored, vec4(VT_DEPTH_SCALE)));
         vec4 depths = layers.depths.x + stored * layerScale(layers), n = 1.0 / depths;
@@ -182,7 +178,8 @@ Crossing meetTriangles(Layers layers, Walk walk, bool inside)
             crossing.layer = layer;
             crossing.upper = upper;
         }
-    }
+        ++layer;
+    } while (layer < u_search.x);
     return crossing;
 }
 
@@ -195,7 +192,7 @@ SurfaceHit triangleSurface(Layers layers, Walk walk, Crossing crossing, vec3 pos
     for (int i = 0; i < 3; ++i) {
         ivec2 corner = i == 0 ? ivec2(0) : i == 2 ? ivec2(1) : crossing.upper ? ivec2(0, 1) : ivec2(1, 0);
         ivec2 texel = clamp(walk.cell + corner, ivec2(0), u_size.zw - 1);
-        float stored = float(layerDepth(layers, crossing.layer, texel));
+        float stored = layerDepth(layers, crossing.layer, texel);
         corners[i] = layerWorldPoint(layers, texel, stored);
         normals[i] = unpackNormal(layerNormals(layers, crossing.layer, texel).x);
         weights[i] /= layers.depths.x + stored * layerScale(layers); // from columns and rows to the world
@@ -262,10 +259,14 @@ bool searchLayers(Layers layers, vec3 origin, vec3 direction, bool inside, bool 
         float share = place * a.z / mix(b.z, a.z, place);
         vec3 position = origin + mix(span.x, span.y, share) * direction;
         vec3 before = pointAt(layers, walk, walk.enter), after = pointAt(layers, walk, walk.leave);
-        SurfaceHit wall;
-        bool isWall = wallBetween(layers, inside ? before : after, inside ? after : before, direction, inside, position, wall);
+        Column beforeColumn, afterColumn;
+        int continuous;
+        readColumns(layers, before, after, 0.0, beforeColumn, afterColumn, continuous);
+        vec3 normal;
+        bool isWall = inside ? wallBetween(layers, before, beforeColumn, afterColumn, direction, inside, normal)
+                             : wallBetween(layers, after, afterColumn, beforeColumn, direction, inside, normal);
         if (isMet || isWall) {
-            hit = wall;
+            hit = SurfaceHit(position, normal, normal, 0);
             if (isMet) { // WebGL's ?: takes no structures
                 hit = triangleSurface(layers, walk, crossing, position, direction, inside);
             }

@@ -21,6 +21,12 @@ const uint WALLS = 0xfffffff0u, BACK = 0xfffffff4u;
 // Far more tiles than a ray looks at, so that no fault of the data hangs the GPU.
 const int MOST_TILES = 16384;
 
+// Where a path meets a relief.
+struct HeightHit {
+    float distance; // in the world
+    uint triangle;
+};
+
 bool isRelief(int object)
 {
     return objectBits(object, VT_OBJECT_OWN_LOW).w != 0u;
@@ -43,7 +49,7 @@ ReliefBox readRelief(int object)
 
 float heightAt(ivec2 s)
 {
-    return texelFetch(u_heights, s, 0).r;
+    return readTexel(u_heights, s, textureSize(u_heights, 0)).r;
 }
 
 // Heights at a cell's corners: its own sample, the next in x, the next in y, the opposite one.
@@ -127,7 +133,7 @@ float passThrough(float a, float b, float above, float beyond)
 }
 
 // The first of the cell's triangles that the ray passes through, upwards where it is inside, else downwards.
-bool meetCell(HeightRay ray, ivec2 cell, vec3 way, bool inside, inout Meeting meeting)
+bool meetCell(HeightRay ray, ivec2 cell, vec3 way, bool inside, inout HeightHit hit)
 {
     vec4 z = cellHeights(cell);
     vec2 o = ray.origin.xy - vec2(cell), d = ray.direction.xy;
@@ -144,14 +150,14 @@ bool meetCell(HeightRay ray, ivec2 cell, vec3 way, bool inside, inout Meeting me
         return false;
     }
     int columns = textureSize(u_heights, 0).x - 1;
-    meeting = Meeting(met, 2u * uint(cell.y * columns + cell.x) + (p.x >= p.y ? 0u : 1u));
+    hit = HeightHit(met, 2u * uint(cell.y * columns + cell.x) + (p.x >= p.y ? 0u : 1u));
     return true;
 }
 
-// As searchCube (search_exact.glsl): where a path (world) meets the relief next. False where it must have met it.
-bool searchHeights(vec3 origin, vec3 direction, int object, bool inside, float farthest, out Meeting meeting)
+// Where a path (world) meets the relief next, its triangle VT_NO_TRIANGLE where it does not before `farthest`.
+void searchHeights(vec3 origin, vec3 direction, int object, bool inside, float farthest, out HeightHit hit)
 {
-    meeting = Meeting(NOWHERE, VT_NO_TRIANGLE);
+    hit = HeightHit(NOWHERE, VT_NO_TRIANGLE);
     ReliefBox box = readRelief(object);
     Transform transform = readTransform(object);
     vec3 o = toObject(transform, vec4(origin, 1.0)), d = toObject(transform, vec4(direction, 0.0));
@@ -166,7 +172,7 @@ bool searchHeights(vec3 origin, vec3 direction, int object, bool inside, float f
     vec3 enters = min(a, b), leaves = max(a, b);
     float enter = max(max(enters.x, enters.y), enters.z), leave = min(min(leaves.x, leaves.y), leaves.z);
     if (enter > min(leave, farthest) || (leave <= nearest && !inside)) {
-        return !inside;
+        return;
     }
     ivec3 isPositive = ivec3(greaterThan(d, vec3(0.0)));
     if (!inside && enter > nearest) {
@@ -174,8 +180,8 @@ bool searchHeights(vec3 origin, vec3 direction, int object, bool inside, float f
         bool isSide = enters.z < enter && o.z + enter * d.z <= surfaceHeight(o.xy + enter * d.xy);
         if (isBack || isSide) {
             uint wall = enters.x == enter ? uint(1 - isPositive.x) : uint(3 - isPositive.y);
-            meeting = Meeting(enter, isBack ? BACK : WALLS + wall);
-            return true;
+            hit = HeightHit(enter, isBack ? BACK : WALLS + wall);
+            return;
         }
     }
     HeightRay ray = HeightRay(o, d, inverse.xy, isPositive.xy, max(enter, 0.0), min(leave, farthest));
@@ -185,8 +191,8 @@ bool searchHeights(vec3 origin, vec3 direction, int object, bool inside, float f
     while (walkHeights(ray, cell, level, tiles)) {
         vec2 exits;
         vec3 way = passCell(ray, cell, cell, 0, exits);
-        if (meetCell(ray, cell, way, inside, meeting)) {
-            return true;
+        if (meetCell(ray, cell, way, inside, hit)) {
+            return;
         }
         if (way.y >= ray.end) {
             break;
@@ -197,14 +203,14 @@ bool searchHeights(vec3 origin, vec3 direction, int object, bool inside, float f
         --tiles;
     }
     if (!inside || leave >= farthest || tiles <= 0) {
-        return tiles > 0;
+        return;
     }
     if (leaves.z == leave && isPositive.z == 1) {
-        return false; // on its way to the box's top it must have met the front
+        return; // on its way to the box's top it must have met the front
     }
     uint wall = leaves.x == leave ? uint(isPositive.x) : 2u + uint(isPositive.y);
-    meeting = Meeting(leave, leaves.z == leave ? BACK : WALLS + wall);
-    return true;
+    hit = HeightHit(leave, leaves.z == leave ? BACK : WALLS + wall);
+    return;
 }
 
 vec3 sampleNormal(ivec2 s, float cell)
@@ -216,7 +222,7 @@ vec3 sampleNormal(ivec2 s, float cell)
     return normalize(vec3(-rise / (vec2(high - low) * cell), 1.0));
 }
 
-// As surfaceAt (walk_mesh.glsl): the surface where a path has met the relief, `position` (world) on it.
+// The surface where a path has met the relief, `position` (world) on it.
 SurfaceHit heightsSurfaceAt(int object, uint triangle, vec3 position)
 {
     ReliefBox box = readRelief(object);

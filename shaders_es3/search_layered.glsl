@@ -29,7 +29,7 @@ SurfaceHit blendTexels(Layers layers, int layer, vec3 origin, vec3 direction, ve
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
         ivec2 texel = layerTexel(corner + vec2(step) + 0.5);
-        float stored = float(layerDepth(layers, layer, texel));
+        float stored = layerDepth(layers, layer, texel);
         uvec2 bits = layerNormals(layers, layer, texel);
         if (stored > VT_DEPTH_SCALE || abs(stored - point.z) > jump || bits.x == VT_NO_NORMAL) {
             continue; // another surface
@@ -60,20 +60,19 @@ SurfaceHit blendTexels(Layers layers, int layer, vec3 origin, vec3 direction, ve
     return SurfaceHit(origin + (t + offset) * direction, normalize(normal), normalize(flatNormal), 0);
 }
 
-// The nearest layer whose flag changed between two near points of the ray and which is a surface there. Case
-// 3 of the paper, a hit: its depths at both points differ by less than a step. Case 2: they do not, the ray
-// passed a fault. -1: none.
-int surfaceBetween(Layers layers, ivec2 texelA, ivec2 texelB, int changed, vec3 direction, bool inside, float jump)
+// The nearest of some layers, a bit each, which is a surface at a texel that the ray goes through the right way; -1: none.
+int surfaceAmong(Layers layers, int candidates, ivec2 texel, vec3 direction, bool inside, out uvec2 normals)
 {
     int found = -1;
-    for (int layer = 0; layer < u_search.x; ++layer) {
-        float depthA = float(layerDepth(layers, layer, texelA));
-        float depthB = float(layerDepth(layers, layer, texelB));
-        bool continuous = max(depthA, depthB) <= VT_DEPTH_SCALE && abs(depthA - depthB) <= jump;
-        bool faces = facesRightWay(unpackNormal(layerNormals(layers, layer, texelB).y), direction, inside);
-        bool here = (changed >> layer) % 2 != 0 && continuous && faces;
-        found = here && found < 0 ? layer : found;
-    }
+    normals = uvec2(0u);
+    do {
+        int layer = lowestBit(candidates);
+        uvec2 there = layerNormals(layers, layer, texel);
+        bool isHit = candidates != 0 && found < 0 && facesRightWay(unpackNormal(there.y), direction, inside);
+        found = isHit ? layer : found;
+        normals = isHit ? there : normals;
+        candidates &= candidates - 1;
+    } while (found < 0 && candidates != 0);
     return found;
 }
 
@@ -96,19 +95,23 @@ bool searchLayers(Layers layers, vec3 origin, vec3 direction, bool inside, bool 
     end = min(end, farthest - span.x);
 
     // Step clear of the surface that the ray starts on, then note which layers lie in front.
-    float a = start ? FIRST_STEP * stride : 0.0;
+    float a = min(start ? FIRST_STEP * stride : 0.0, end);
     int flags = layersInFront(layers, layerPoint(layers, ray, a));
-    int steps = u_search.y;
+    int steps = u_search.y, layer = -1;
+    bool isWall = false;
+    uvec2 normals = uvec2(0u);
+    vec3 wall = direction;
+    float b = a;
     for (int fault = 0; fault <= MOST_FAULTS; ++fault) {
         // Linear steps. Case 1 of the paper: no flag changes, go on.
-        float b = a;
+        b = a;
         int next = flags;
-        while (next == flags && b < end && steps > 0) {
+        do {
             a = b;
             b = min(a + stride, end);
             next = layersInFront(layers, layerPoint(layers, ray, b));
             --steps;
-        }
+        } while (next == flags && b < end && steps > 0);
         if (next == flags) {
             break;
         }
@@ -121,25 +124,30 @@ bool searchLayers(Layers layers, vec3 origin, vec3 direction, bool inside, bool 
             b = same ? b : middle;
             next = same ? next : there;
         }
+        // Case 3 of the paper, a hit: a layer whose flag changed is as deep on both sides.
         vec3 pointA = layerPoint(layers, ray, a), pointB = layerPoint(layers, ray, b);
-        ivec2 texelA = layerTexel(pointA.xy), texelB = layerTexel(pointB.xy);
-        int layer = surfaceBetween(layers, texelA, texelB, next ^ flags, direction, inside, jump);
-        SurfaceHit surface = blendTexels(layers, max(layer, 0), origin, direction, pointB, b, jump,
-                                         layerNormals(layers, max(layer, 0), texelB));
-        SurfaceHit wall;
-        bool isWall = wallBetween(layers, inside ? pointA : pointB, inside ? pointB : pointA, direction, inside,
-                                  origin + 0.5 * (a + b) * direction, wall);
+        Column columnA, columnB;
+        int continuous;
+        readColumns(layers, pointA, pointB, jump, columnA, columnB, continuous);
+        layer = surfaceAmong(layers, (next ^ flags) & continuous, layerTexel(pointB.xy), direction, inside, normals);
+        if (!inside) {
+            Column column = columnA;
+            columnA = columnB;
+            columnB = column;
+        }
+        isWall = wallBetween(layers, inside ? pointA : pointB, columnA, columnB, direction, inside, wall);
         if (layer >= 0 || isWall) {
-            hit = wall;
-            if (layer >= 0) { // WebGL's ?: takes no structures
-                hit = surface;
-            }
-            return true;
+            break;
         }
         // Case 2: remember on which side of each layer the ray now is, and go on from there.
         flags = next;
         a = b;
         ++steps; // the rest of the step is still to be gone
     }
-    return false;
+    hit = SurfaceHit(origin + 0.5 * (a + b) * direction, wall, wall, 0);
+    SurfaceHit surface = blendTexels(layers, max(layer, 0), origin, direction, layerPoint(layers, ray, b), b, jump, normals);
+    if (layer >= 0) { // WebGL's ?: takes no structures
+        hit = surface;
+    }
+    return layer >= 0 || isWall;
 }

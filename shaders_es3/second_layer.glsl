@@ -5,11 +5,10 @@ uniform usampler2DArray u_layerNormals;
 // VT_DEPTH_NONE outside the texture and where there is no back side.
 uint backDepth(vec2 position)
 {
-    ivec2 texel = ivec2(floor(position));
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, u_size.zw))) {
-        return VT_DEPTH_NONE;
-    }
-    return texelFetch(u_layerDepths, ivec3(texel, 1), 0).r;
+    vec2 texel = floor(position);
+    bool isBeside = any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(u_size.zw)));
+    uint depth = readLayer(u_layerDepths, texel, 1, u_size.zw).r;
+    return isBeside ? VT_DEPTH_NONE : depth;
 }
 
 // Interpolated outward normal, bilinear over the texels that have one.
@@ -20,7 +19,7 @@ vec3 backNormal(vec2 position)
     vec3 normal = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         vec2 step = vec2(i & 1, i >> 1);
-        uint bits = texelFetch(u_layerNormals, ivec3(layerTexel(corner + step), 1), 0).r;
+        uint bits = readLayer(u_layerNormals, layerTexel(corner + step), 1, u_size.zw).r;
         vec2 w = mix(1.0 - fraction, fraction, step);
         normal += bits != VT_NO_NORMAL ? (w.x * w.y + 1e-4) * unpackNormal(bits) : vec3(0.0);
     }

@@ -1,6 +1,6 @@
 // The light of opaque surfaces. The twin of src/scene/shading.c, which names the sources. Wants octahedral.glsl,
-// environment.glsl, objects.glsl, triangles.glsl and lighting.glsl before it.
-uniform usampler2D u_attributes;  // three texels a triangle: constants.h
+// environment.glsl, objects.glsl, records.glsl and lighting.glsl before it.
+uniform usampler2D u_attributes;  // a texel a corner of a pair: constants.h
 uniform sampler2DArray u_images;  // src/gl/image_array.h
 
 struct Attributes {
@@ -9,21 +9,19 @@ struct Attributes {
     float area; // of the triangle in texture coordinates
 };
 
-uvec4 attributeTexel(uint record, int corner)
-{
-    uint row = record / uint(VT_TRIANGLES_A_ROW);
-    uint column = record - row * uint(VT_TRIANGLES_A_ROW);
-    return texelFetch(u_attributes, ivec2(3 * int(column) + corner, int(row)), 0);
-}
-
 vec3 cornerColor(uvec4 texel)
 {
     return vec3(unpackHalf2x16(texel.z), unpackHalf2x16(texel.w).x);
 }
 
-Attributes attributesAt(uint record, vec3 w)
+// Of a triangle whose pair has that attribute record.
+Attributes attributesAt(uint record, uint second, vec3 w)
 {
-    uvec4 a = attributeTexel(record, 0), b = attributeTexel(record, 1), c = attributeTexel(record, 2);
+    vec2 texel = 1.0 / vec2(textureSize(u_attributes, 0));
+    vec2 place = recordPlace(record, texel);
+    uvec4 a = textureLod(u_attributes, place, 0.0);
+    uvec4 b = textureLod(u_attributes, place + vec2(float(1u + second) * texel.x, 0.0), 0.0);
+    uvec4 c = textureLod(u_attributes, place + vec2(float(2u + second) * texel.x, 0.0), 0.0);
     vec2 A = uintBitsToFloat(a.xy), B = uintBitsToFloat(b.xy), C = uintBitsToFloat(c.xy);
     vec2 e1 = B - A, e2 = C - A;
     vec3 color = w.x * cornerColor(a) + w.y * cornerColor(b) + w.z * cornerColor(c);
@@ -61,19 +59,19 @@ vec3 reflectedShare(vec3 F0, float roughness, float cosine)
     return max(F0 * (r.z - 1.04 * a) + (r.w + 1.04 * a), 0.0);
 }
 
-// Radiance that leaves an opaque object's triangle against the direction of travel I, where its corners have the
-// weights w. `footprint`: how much of the world a pixel covers there, 0: images at full size.
-vec3 shadeSurface(int object, uint triangle, vec3 w, vec3 I, float footprint)
+// Radiance that leaves an opaque object where a ray has met it, against the ray's direction I. `footprint`: how much of the world a pixel covers there, 0: images at full size.
+vec3 shadeSurface(int object, RecordHit hit, vec3 I, float footprint)
 {
-    vec3 A = uintBitsToFloat(triangleTexel(triangle, 0).xyz);
-    vec3 area = areaInWorld(object, cross(uintBitsToFloat(triangleTexel(triangle, 1).xyz) - A,
-                                          uintBitsToFloat(triangleTexel(triangle, 2).xyz) - A));
+    Corners corners = recordCorners(hit.triangle);
+    vec3 area = areaInWorld(object, cornersArea(corners));
+    vec3 w = vec3(1.0 - hit.at.x - hit.at.y, hit.at);
     vec4 surface = objectNumbers(object, VT_OBJECT_SURFACE);
     uvec4 images = objectBits(object, VT_OBJECT_IMAGES);
     uvec4 row = objectBits(object, VT_OBJECT_COLOR);
     Attributes attributes = Attributes(vec2(0.0), vec3(1.0), 0.0);
     if (row.w != VT_NO_TRIANGLE) {
-        attributes = attributesAt(row.w + triangle - images.z, w);
+        uint record = (hit.triangle >> 1u) - objectBits(object, VT_OBJECT_GRID_LOW).w; // of the mesh's
+        attributes = attributesAt(row.w + record, hit.triangle & 1u, w);
     }
     float level = imageLevel(footprint, attributes.area, 0.5 * length(area));
     vec3 base = uintBitsToFloat(row.xyz) * readImage(images.x, attributes.at, level) * attributes.color;
@@ -85,10 +83,8 @@ vec3 shadeSurface(int object, uint triangle, vec3 w, vec3 I, float footprint)
     float metallic = surface.x * share.b, roughness = surface.y * share.g;
 
     // On the viewer's side, or the triangle's own where the interpolated one faces away.
-    uvec3 normals = triangleTexel(triangle, 3).xyz;
     vec3 G = normalize(area);
-    vec3 N = normalToWorld(readTransform(object), w.x * unpackNormal(normals.x) + w.y * unpackNormal(normals.y) +
-                                       w.z * unpackNormal(normals.z));
+    vec3 N = normalToWorld(readTransform(object), cornersNormal(corners, hit.at));
     float side = dot(G, I) > 0.0 ? -1.0 : 1.0;
     N = side * (dot(side * N, I) < 0.0 ? N : G);
 

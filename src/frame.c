@@ -1,19 +1,17 @@
 // Defaults and ranges of a frame: the one place that knows them.
 #include "base/error.h"
 #include "base/math.h"
-#include "passes/cube.h"
 #include "technique.h"
 
 // One row a preset, as the table in vitrine.h.
 static const struct {
     const char* name;
     int layers, steps;
-    int exactLayers, exactSteps, cubeSize;
     int maxEvents, branches;
 } presets[vt_presetCount] = {
-    [vt_presetLow] = {"low", 2, 25, 4, 64, 64, 4, 0},
-    [vt_presetMedium] = {"medium", 4, 50, 8, 256, 128, 8, 1},
-    [vt_presetHigh] = {"high", 8, 100, 8, 512, 256, 8, 2},
+    [vt_presetLow] = {"low", 2, 25, 4, 0},
+    [vt_presetMedium] = {"medium", 4, 50, 8, 1},
+    [vt_presetHigh] = {"high", 8, 100, 8, 2},
 };
 
 const char* vtPresetName(int index)
@@ -24,40 +22,18 @@ const char* vtPresetName(int index)
 vtFrame vtResolveFrame(const vtFrame* frame)
 {
     const int row = frame->preset;
-    const bool exact = vtTechnique_Row(frame->technique)->cube;
     vtFrame resolved = *frame;
-    if (resolved.layers == 0) {
-        resolved.layers = exact ? presets[row].exactLayers : presets[row].layers;
-    }
-    if (resolved.steps == 0) {
-        resolved.steps = exact ? presets[row].exactSteps : presets[row].steps;
-    }
-    if (resolved.cubeSize == 0) {
-        resolved.cubeSize = presets[row].cubeSize;
-    }
-    if (resolved.maxEvents == 0) {
-        resolved.maxEvents = presets[row].maxEvents;
-    }
+    resolved.layers = frame->layers == 0 ? presets[row].layers : frame->layers;
+    resolved.steps = frame->steps == 0 ? presets[row].steps : frame->steps;
+    resolved.maxEvents = frame->maxEvents == 0 ? presets[row].maxEvents : frame->maxEvents;
     return resolved;
 }
 
 int vtFrame_BranchCount(const vtFrame* frame)
 {
-    const bool any = vtTechnique_Row(frame->technique)->branches && frame->fresnel && frame->branches >= 0 &&
-                     frame->output == vt_outputPicture;
+    const bool any =
+        vtTechnique_Row(frame->technique)->traces && !vtFrame_IsStrict(frame) && frame->branches >= 0;
     return any ? frame->branches > 0 ? frame->branches : presets[frame->preset].branches : 0;
-}
-
-int vtFrame_CubeLayers(const vtFrame* frame)
-{
-    const vtFrame resolved = vtResolveFrame(frame);
-    return vtTechnique_Row(frame->technique)->cube ? resolved.layers : presets[frame->preset].exactLayers;
-}
-
-size_t vtFrame_CubeBytes(const vtFrame* frame)
-{
-    const vtFrame resolved = vtResolveFrame(frame);
-    return vtCubeBytes(resolved.cubeSize, resolved.layers, frame->layerSource == vt_layersFromEye ? 1 : 3);
 }
 
 vtFrame vtDefaultFrame(void)
@@ -71,7 +47,6 @@ vtFrame vtDefaultFrame(void)
         .maxTransmittance = 0.95f,
         .minTransmittance = 0.2f,
         .power = 3.0f,
-        .topLevel = 7,
         .refine = 8,
         .width = 512,
         .height = 512,
@@ -122,9 +97,6 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         {"multi", frame->multi, vt_multiAny, vt_multiOrdered},
         {"search", frame->search, vt_searchSteps, vt_searchCells},
         {"back-surface", frame->backSurface, vt_backSecond, vt_backFarthest},
-        {"layer-source", frame->layerSource, vt_layersFromCube, vt_layersFromEye},
-        {"cube-size", frame->cubeSize, frame->cubeSize == 0 ? 0 : 32, 1024},
-        {"top-level", frame->topLevel, 0, VT_MAX_CUBE_LEVELS - 1},
         {"exposure", frame->exposure, -20, 20},
         {"samples", frame->samples, 1, VT_MAX_SAMPLES},
         {"first-sample", frame->firstSample, 0, 1000000},
@@ -136,9 +108,6 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         if (checkRange(ranges[i].field, ranges[i].value, ranges[i].low, ranges[i].high, error) != vt_ok) {
             return vt_errorArgument;
         }
-    }
-    if ((frame->cubeSize & (frame->cubeSize - 1)) != 0) {
-        return vtFail(error, vt_errorArgument, "cube-size is %d; it must be a power of two", frame->cubeSize);
     }
     const int layers = vtFrame_LayerCount(frame);
     if (frame->output >= vt_outputLayerDepth && layers == 0) {

@@ -1,23 +1,24 @@
-// The whole of a frame, in order: surface, peel, cube, merge, refract, shade, present; with several samples a
-// pixel, accumulate in place of present. Each pass reads the targets of those before it and writes its own;
-// offscreen, window and canvas differ only in the framebuffer that present draws to.
+// The whole of a frame, in order. Techniques that search layers, or blend: surface, peel, merge, refract,
+// shade; those that need no image of the scene: trace. Then present or, with several samples a pixel,
+// accumulate. Each pass reads the targets of those before it and writes its own; offscreen, window and canvas
+// differ only in the framebuffer that present draws to.
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/math.h"
-#include "gl/bvh_buffer.h"
+#include "gl/environment_buffer.h"
 #include "gl/scene_buffer.h"
-#include "layout.h"
+#include "object_table.h"
 #include "passes/accumulate.h"
-#include "passes/cube.h"
 #include "passes/merge.h"
 #include "passes/peel.h"
 #include "passes/present.h"
 #include "passes/refract.h"
 #include "passes/shade.h"
 #include "passes/surface.h"
+#include "passes/trace.h"
 #include "uniforms.h"
 
 struct vtRenderer {
@@ -27,16 +28,14 @@ struct vtRenderer {
     vtSurfacePass surface;
     vtPeelPass peel;
     vtMergePass merge;
-    vtCubePass cube;
     vtRefractPass refract;
     vtShadePass shade;
+    vtTracePass trace;
     vtPresentPass present;
     vtAccumulatePass accumulate;
     // The scene.
     vtSceneBuffer scene;
-    vtLayout layout; // what the cubes hold
-    vtBvhBuffer bvh; // of the one mesh, once `bvh` has been drawn
-    vtEnvironmentKind environment;
+    vtEnvironmentBuffer environment;
     // What a frame has to agree with to go on with the samples of the one before.
     vtFrameUniforms uniforms; // of the pixel's centre
     vtTechnique technique;
@@ -49,25 +48,6 @@ struct vtRenderer {
     GLuint imageFramebuffer;
     vtTexture image;
 };
-
-static vtResult createPasses(vtRenderer* renderer, vtError* error)
-{
-    const vtGL* gl = &renderer->gl;
-    vtResult result = vtSurfacePass_Create(&renderer->surface, gl, error);
-    if (result == vt_ok) {
-        result = vtMergePass_Create(&renderer->merge, gl, error);
-    }
-    if (result == vt_ok) {
-        result = vtCubePass_Create(&renderer->cube, gl, error);
-    }
-    if (result == vt_ok) {
-        result = vtShadePass_Create(&renderer->shade, gl, error);
-    }
-    if (result == vt_ok) {
-        result = vtPresentPass_Create(&renderer->present, gl, error);
-    }
-    return result;
-}
 
 vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** out, vtError* error)
 {
@@ -87,10 +67,8 @@ vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** out, vtError* e
     gl->BindBuffer(GL_UNIFORM_BUFFER, renderer->uniformBuffer);
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof(vtFrameUniforms), NULL, GL_DYNAMIC_DRAW);
 
-    result = createPasses(renderer, error);
-    if (result == vt_ok) {
-        result = vtCheckGL(gl, "creating the renderer", error);
-    }
+    vtEnvironmentBuffer_Create(&renderer->environment, gl);
+    result = vtCheckGL(gl, "creating the renderer", error);
     if (result != vt_ok) {
         vtDestroyRenderer(renderer);
         return result;
@@ -108,14 +86,13 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtSurfacePass_Destroy(&renderer->surface, gl);
     vtPeelPass_Destroy(&renderer->peel, gl);
     vtMergePass_Destroy(&renderer->merge, gl);
-    vtCubePass_Destroy(&renderer->cube, gl);
     vtRefractPass_Destroy(&renderer->refract, gl);
     vtShadePass_Destroy(&renderer->shade, gl);
+    vtTracePass_Destroy(&renderer->trace, gl);
     vtPresentPass_Destroy(&renderer->present, gl);
     vtAccumulatePass_Destroy(&renderer->accumulate, gl);
     vtSceneBuffer_Destroy(&renderer->scene, gl);
-    vtDestroyLayout(&renderer->layout);
-    vtBvhBuffer_Destroy(&renderer->bvh, gl);
+    vtEnvironmentBuffer_Destroy(&renderer->environment, gl);
     vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
     vtTexture_Destroy(&renderer->image, gl);
     gl->DeleteBuffers(1, &renderer->uniformBuffer);
@@ -133,8 +110,6 @@ vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError
     vtSceneBuffer_Destroy(&renderer->scene, &renderer->gl);
     renderer->scene = fresh;
     renderer->sampleEnd = 0;
-    vtDestroyLayout(&renderer->layout);
-    vtBvhBuffer_Destroy(&renderer->bvh, &renderer->gl);
     return vtSucceed(error);
 }
 
@@ -144,14 +119,24 @@ vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* e
     return vtRenderer_SetScene(renderer, vtBorrowMesh(mesh, &borrowed), error);
 }
 
+vtResult vtRenderer_UpdateMesh(vtRenderer* renderer, const vtScene* scene, uint32_t mesh, vtError* error)
+{
+    if (mesh >= scene->meshCount) {
+        return vtFail(error, vt_errorArgument, "mesh %u is not in the scene, which has %u", mesh,
+                      scene->meshCount);
+    }
+    if (scene->objectCount != renderer->scene.objectCount ||
+        !vtSceneBuffer_UpdateMesh(&renderer->scene, &renderer->gl, scene, mesh)) {
+        return vtRenderer_SetScene(renderer, scene, error);
+    }
+    renderer->sampleEnd = 0;
+    return vtSucceed(error);
+}
+
 vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error)
 {
-    vtResult result = vtShadePass_SetEnvironment(&renderer->shade, &renderer->gl, environment, error);
-    if (result == vt_ok) {
-        renderer->environment = environment->kind;
-        renderer->sampleEnd = 0;
-    }
-    return result;
+    renderer->sampleEnd = 0;
+    return vtEnvironmentBuffer_Set(&renderer->environment, &renderer->gl, environment, error);
 }
 
 static vtPeelKind choosePeelKind(const vtFrame* frame)
@@ -170,113 +155,88 @@ static void endStage(const vtFrame* frame, const char* stage)
     }
 }
 
-/// Sets of path targets: the branches' two, in turns, beside the pixels' own.
-static int pathSets(const vtFrame* frame)
-{
-    const int branches = vtFrame_BranchCount(frame);
-    return 1 + (branches < 2 ? branches : 2);
-}
-
 static bool hasOpaque(const vtRenderer* renderer)
 {
     return renderer->scene.objectCount > renderer->scene.glassCount;
 }
 
-static bool onlyRelief(const vtRenderer* renderer)
+static bool addsSamples(const vtFrame* frame)
 {
-    bool only = true;
-    for (uint32_t i = 0; i < renderer->scene.objectCount; ++i) {
-        only = only && vtSceneBuffer_HasHeights(&renderer->scene, i);
-    }
-    return only;
+    return frame->output == vt_outputPicture && frame->firstSample + frame->samples > 1;
 }
 
-static vtSurfaceKind chooseSurfaceKind(const vtFrame* frame)
+/// Starts the programs that the frame draws with.
+static void startPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs)
 {
+    const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
-    return row->heights ? vt_surfaceHeights : row->innerDistances ? vt_surfaceDistances : vt_surfacePlain;
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
+    if (row->traces) {
+        vtTracePass_Start(&renderer->trace, gl, vtChooseTraceVariant(&renderer->scene, frame), programs);
+    } else {
+        vtRefractPass_Start(&renderer->refract, gl, frame->technique, variant, frame->countReads, programs);
+        vtShadePass_Start(&renderer->shade, gl, hasOpaque(renderer), row->surface, programs);
+    }
+    if (row->surface) {
+        vtSurfacePass_Start(&renderer->surface, gl, row->innerDistances, programs);
+    }
+    if (row->layers != 0) {
+        vtPeelPass_Start(&renderer->peel, gl, choosePeelKind(frame), programs);
+    }
+    if (row->merge) {
+        vtMergePass_Start(&renderer->merge, gl, programs);
+    }
+    if (addsSamples(frame)) {
+        vtAccumulatePass_Start(&renderer->accumulate, gl, programs);
+    } else {
+        vtPresentPass_Start(&renderer->present, gl, programs);
+    }
+}
+
+/// Targets of the techniques that search layers, or blend.
+static vtResult resizeLayers(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
+                             vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    const int layers = vtFrame_LayerCount(frame);
+    const int sets = choosePeelKind(frame) == vt_peelEachObject && renderer->scene.glassCount > 0
+                         ? (int)renderer->scene.glassCount
+                         : 1;
+    const bool ordered = vtVariant_IsOrdered(vtFrame_Variant(frame, hasOpaque(renderer)));
+    vtResult result = vt_ok;
+    if (row->surface) {
+        result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
+                                      row->innerDistances, error);
+    }
+    if (result == vt_ok) {
+        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height, ordered ? 2 : 1,
+                                      row->surface ? &renderer->surface.depth : NULL, error);
+    }
+    if (result == vt_ok && layers > 0) {
+        result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, layers, sets, error);
+    }
+    if (result == vt_ok && row->merge) {
+        result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, layers, sets, error);
+    }
+    return result == vt_ok ? vtShadePass_Resize(&renderer->shade, gl, frame->width, frame->height, error)
+                           : result;
 }
 
 static vtResult resizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
                               vtError* error)
 {
     const vtGL* gl = &renderer->gl;
-    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
-    const int layers = vtFrame_LayerCount(frame);
-    const vtPeelKind kind = choosePeelKind(frame);
-    const int sets =
-        kind == vt_peelEachObject && renderer->scene.glassCount > 0 ? (int)renderer->scene.glassCount : 1;
-    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer), onlyRelief(renderer));
-    vtResult result = vt_ok;
-    if (row->surface) {
-        result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
-                                      chooseSurfaceKind(frame), error);
+    vtResult result = vtTechnique_Row(frame->technique)->traces
+                          ? vtTracePass_Resize(&renderer->trace, gl, frame->width, frame->height, error)
+                          : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
+    if (result == vt_ok && hasOpaque(renderer)) {
+        result = vtEnvironmentBuffer_Light(&renderer->environment, gl, error);
     }
-    if (result == vt_ok) {
-        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height,
-                                      vtVariant_IsOrdered(variant) ? 2 : pathSets(frame),
-                                      row->surface ? &renderer->surface.depth : NULL, error);
-    }
-    if (result == vt_ok && layers > 0) {
-        result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, layers, sets, error);
-    }
-    if (result == vt_ok && layers > 0) {
-        result = vtPeelPass_Prepare(&renderer->peel, gl, kind, error);
-    }
-    if (result == vt_ok && row->merge) {
-        result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, layers, sets, error);
-    }
-    if (result == vt_ok) {
-        result = vtRefractPass_Prepare(&renderer->refract, gl, frame->technique, variant, frame->countReads,
-                                       vtFrame_BranchCount(frame) > 0, error);
-    }
-    if (result == vt_ok) {
-        result = vtShadePass_Prepare(&renderer->shade, gl, frame->width, frame->height, hasOpaque(renderer),
-                                     row->surface, vtFrame_BranchCount(frame) > 0, error);
+    if (result == vt_ok && addsSamples(frame)) {
+        result = vtAccumulatePass_Resize(&renderer->accumulate, gl, frame->width, frame->height, error);
     }
     return result;
-}
-
-/// Layers of meshes that have changed or are not there yet.
-static vtResult drawCubes(vtRenderer* renderer, const vtFrame* frame, vtError* error)
-{
-    const vtGL* gl = &renderer->gl;
-    vtLayout layout;
-    vtResult result = vtCreateLayout(&renderer->scene, frame, &layout, error);
-    if (result != vt_ok) {
-        return result;
-    }
-    bool changed = false;
-    if (layout.slotCount > 0) {
-        result = vtCubePass_Resize(&renderer->cube, gl, frame->cubeSize, vtFrame_CubeLayers(frame),
-                                   frame->layerSource == vt_layersFromEye ? 1 : 3, layout.slotCount, &changed,
-                                   error);
-    }
-    if (result != vt_ok) {
-        vtDestroyLayout(&layout);
-        return result;
-    }
-    renderer->sampleEnd =
-        vtSceneBuffer_SetTable(&renderer->scene, gl, layout.words) ? 0 : renderer->sampleEnd;
-    // A technique without cubes leaves those of another as they are.
-    const bool isDrawn =
-        !changed && (layout.slotCount == 0 || vtLayout_SameSlots(&layout, &renderer->layout));
-    if (!isDrawn) {
-        gl->BindVertexArray(renderer->emptyVertexArray);
-        for (int slot = 0; slot < layout.slotCount; ++slot) {
-            vtCubePass_Draw(&renderer->cube, gl, &renderer->scene.triangles, slot, &layout.slots[slot]);
-        }
-    }
-    if (layout.slotCount > 0) {
-        vtDestroyLayout(&renderer->layout);
-        renderer->layout = layout;
-    } else {
-        vtDestroyLayout(&layout);
-    }
-    if (!isDrawn) {
-        endStage(frame, "cube");
-    }
-    return vt_ok;
 }
 
 /// Uploads the uniform block of one sample; `count` samples are in the sum with it.
@@ -302,27 +262,6 @@ static void resetState(const vtGL* gl)
     gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-#ifdef VT_WITH_BVH
-/// The hierarchy, where the frame's technique walks one and it is not there.
-static vtResult prepareBvh(vtRenderer* renderer, const vtFrame* frame, vtError* error)
-{
-    const vtSceneBuffer* scene = &renderer->scene;
-    if (!vtTechnique_Row(frame->technique)->bvh || renderer->bvh.nodes.name != 0) {
-        return vt_ok;
-    }
-    if (scene->objectCount != 1) {
-        return vtFail(error, vt_errorArgument,
-                      "technique 'bvh' draws one object; this scene has %u, use exact", scene->objectCount);
-    }
-    const vtObjectBuffer* object = &scene->objects[0];
-    vtResult result = vtBvhBuffer_Create(&renderer->bvh, &renderer->gl, &scene->triangles,
-                                         (uint32_t)scene->meshes[object->mesh].indexCount / 3, object->ownMin,
-                                         object->ownMax, error);
-    endStage(frame, "bvh");
-    return result;
-}
-#endif
-
 /// One object after the other, from the eye; then the surfaces of all are there again.
 static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, vtVariant variant,
                         const vtRefractInputs* inputs)
@@ -334,8 +273,7 @@ static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, vtVariant va
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t object = scene->order[i];
         if (count > 1) {
-            vtSurfacePass_Draw(&renderer->surface, gl, scene, object, object + 1, vt_surfacePlain,
-                               renderer->emptyVertexArray);
+            vtSurfacePass_Draw(&renderer->surface, gl, scene, object, object + 1, false);
             gl->BindVertexArray(renderer->emptyVertexArray);
             endStage(frame, "surface");
         }
@@ -344,22 +282,21 @@ static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, vtVariant va
         endStage(frame, "refract");
     }
     if (count > 1) {
-        vtSurfacePass_Draw(&renderer->surface, gl, scene, 0, count, vt_surfacePlain,
-                           renderer->emptyVertexArray);
+        vtSurfacePass_Draw(&renderer->surface, gl, scene, 0, count, false);
         gl->BindVertexArray(renderer->emptyVertexArray);
         endStage(frame, "surface");
     }
 }
 
-/// Everything up to the light, with the uniform block that was uploaded.
-static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
+/// Paths and light of the techniques that search layers, or blend.
+static void drawLayers(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
 {
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
-    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer), onlyRelief(renderer));
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
     if (row->surface) {
         vtSurfacePass_Draw(&renderer->surface, gl, &renderer->scene, 0, renderer->scene.glassCount,
-                           chooseSurfaceKind(frame), renderer->emptyVertexArray);
+                           row->innerDistances);
         endStage(frame, "surface");
     }
     if (layersToo && row->layers != 0) {
@@ -371,53 +308,53 @@ static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo
         vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
         endStage(frame, "merge");
     }
-#ifdef VT_WITH_BVH
-    if (row->bvh) { // VT_BVH_SAMPLERS in technique.c
-        vtTexture_Bind(&renderer->bvh.nodes, gl, 11);
-        vtTexture_Bind(&renderer->bvh.triangles, gl, 12);
-    }
-#endif
     const vtRefractInputs inputs = {.surface = &renderer->surface.attributes,
                                     .innerDistances = &renderer->surface.distances,
                                     .layerDepths = &renderer->peel.depths,
                                     .layerNormals = &renderer->peel.normals,
                                     .mergedDepths = &renderer->merge.depths,
-                                    .cubeSurfaces = &renderer->cube.surfaces,
-                                    .cubeTriangles = &renderer->cube.triangles,
-                                    .intervals = &renderer->cube.intervals,
-                                    .triangles = &renderer->scene.triangles,
-                                    .cubeColumns = &renderer->cube.columns,
-                                    .objects = &renderer->scene.table,
-                                    .heights = &renderer->scene.heights,
+                                    .scene = &renderer->scene,
                                     .countReads = frame->countReads};
-    const int branches = vtFrame_BranchCount(frame);
-    const vtPathTargets* paths = NULL;
-    for (int branch = 0; branch <= branches; ++branch) {
-        const int set = branch == 0 ? 0 : 1 + (branch - 1) % 2;
-        if (vtVariant_IsOrdered(variant)) {
-            drawOrdered(renderer, frame, variant, &inputs);
-        } else {
-            vtRefractPass_Draw(&renderer->refract, gl, frame->technique, variant, &inputs, set, paths);
-            endStage(frame, "refract");
-        }
-        paths = &renderer->refract.targets[set];
-        if (frame->output == vt_outputPicture) {
-            vtShadePass_Draw(&renderer->shade, gl,
-                             &(vtShadeInputs){.paths = paths,
-                                              .branch = branch,
-                                              .branches = branches - branch,
-                                              .surface = row->surface ? &renderer->surface.attributes : NULL,
-                                              .scene = &renderer->scene,
-                                              .cube = &renderer->cube});
-            endStage(frame, "shade");
-        }
+    if (vtVariant_IsOrdered(variant)) {
+        drawOrdered(renderer, frame, variant, &inputs);
+    } else {
+        vtRefractPass_Draw(&renderer->refract, gl, frame->technique, variant, &inputs);
+        endStage(frame, "refract");
+    }
+    if (frame->output == vt_outputPicture) {
+        vtShadePass_Draw(&renderer->shade, gl,
+                         &(vtShadeInputs){.paths = &renderer->refract.targets[0],
+                                          .surface = row->surface ? &renderer->surface.attributes : NULL,
+                                          .scene = &renderer->scene,
+                                          .environment = &renderer->environment});
+        endStage(frame, "shade");
     }
 }
 
-/// Where drawPaths has left the light.
-static const vtTexture* drawnLight(const vtRenderer* renderer, const vtFrame* frame)
+/// Everything up to the light, with the uniform block that was uploaded.
+static void drawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
 {
-    return vtShadePass_Light(&renderer->shade, vtFrame_BranchCount(frame));
+    if (!vtTechnique_Row(frame->technique)->traces) {
+        drawLayers(renderer, frame, layersToo);
+        return;
+    }
+    renderer->gl.BindVertexArray(renderer->emptyVertexArray);
+    vtTracePass_Draw(&renderer->trace, &renderer->gl, vtChooseTraceVariant(&renderer->scene, frame),
+                     &renderer->scene, &renderer->environment, vtFrame_BranchCount(frame));
+    endStage(frame, "trace");
+}
+
+/// Where drawPaths has left the paths and the light.
+static const vtTexture* drawnPaths(const vtRenderer* renderer)
+{
+    return vtTechnique_Row(renderer->technique)->traces ? &renderer->trace.paths
+                                                        : &renderer->refract.targets[0].paths;
+}
+
+static const vtTexture* drawnLight(const vtRenderer* renderer)
+{
+    return vtTechnique_Row(renderer->technique)->traces ? &renderer->trace.radiance
+                                                        : &renderer->shade.radiance;
 }
 
 static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
@@ -426,8 +363,8 @@ static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
     uploadSample(renderer, 0, 1);
     drawPaths(renderer, frame, true);
     vtPresentPass_Draw(&renderer->present, gl,
-                       &(vtPresentInputs){.paths = &renderer->refract.targets[0].paths,
-                                          .radiance = drawnLight(renderer, frame),
+                       &(vtPresentInputs){.paths = drawnPaths(renderer),
+                                          .radiance = drawnLight(renderer),
                                           .layerDepths = &renderer->peel.depths,
                                           .layerNormals = &renderer->peel.normals},
                        frame->framebuffer, frame->width, frame->height);
@@ -436,32 +373,28 @@ static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
     renderer->sampleEnd = frame->output == vt_outputPicture;
 }
 
-static void addSample(vtRenderer* renderer, const vtFrame* frame)
+static void addSample(vtRenderer* renderer)
 {
-    vtAccumulatePass_Add(&renderer->accumulate, &renderer->gl, drawnLight(renderer, frame));
+    vtAccumulatePass_Add(&renderer->accumulate, &renderer->gl, drawnLight(renderer));
 }
 
 /// `sampleEnd`: of the frame before, if this one goes on with it, else 0.
-static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int sampleEnd, vtError* error)
+static void drawSamples(vtRenderer* renderer, const vtFrame* frame, int sampleEnd)
 {
     const vtGL* gl = &renderer->gl;
     vtAccumulatePass* accumulate = &renderer->accumulate;
-    vtResult result = vtAccumulatePass_Prepare(accumulate, gl, frame->width, frame->height, error);
-    if (result != vt_ok) {
-        return result;
-    }
     gl->BindVertexArray(renderer->emptyVertexArray);
     if (sampleEnd == 0) {
         accumulate->count = 0;
     } else if (accumulate->count == 0) { // sample 0 was drawn straight, and its light is still there
-        addSample(renderer, frame);
+        addSample(renderer);
     }
     bool layersToo = sampleEnd == 0;
     const int end = frame->firstSample + frame->samples;
     for (int i = frame->firstSample > sampleEnd ? frame->firstSample : sampleEnd; i < end; ++i) {
         uploadSample(renderer, i, accumulate->count + 1);
         drawPaths(renderer, frame, layersToo);
-        addSample(renderer, frame);
+        addSample(renderer);
         // Fitted to the object, the layers stay the same for every sample: a third less time, and 0.2 to 0.4
         // dB further from the reference than with layers that move too (knot, bunny, 16 samples).
         layersToo = vtTechnique_Row(frame->technique)->layerSpace == vt_layersOfPicture;
@@ -470,7 +403,6 @@ static vtResult drawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
     uploadSample(renderer, 0, accumulate->count); // should there have been no sample left to draw
     vtAccumulatePass_Show(accumulate, gl, frame->framebuffer);
     renderer->sampleEnd = sampleEnd;
-    return vt_ok;
 }
 
 /// What a technique needs of the scene's meshes is there (vtPrepareScene).
@@ -496,66 +428,90 @@ static vtResult checkMeshes(const vtSceneBuffer* scene, const vtTechniqueRow* ro
     return vt_ok;
 }
 
-vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* error)
+/// The frame as it is drawn: settings resolved, the view in the scene buffer's world.
+static vtResult resolveFrame(const vtRenderer* renderer, const vtFrame* asked, vtFrame* frame, vtError* error)
 {
     assert(renderer->scene.objectCount > 0 && "set a scene before drawing");
-    vtResult result = vtValidateFrame(asked, error);
+    const vtResult result = vtValidateFrame(asked, error);
     if (result != vt_ok) {
         return result;
     }
-    vtFrame resolved = vtResolveFrame(asked);
-    if (resolved.technique == vt_techniqueHeightField && renderer->scene.heights.cell == 0.0f) {
-        resolved.technique = vt_techniqueExact; // the same without a relief
+    *frame = vtResolveFrame(asked);
+    if (frame->technique == vt_techniqueHeightField && renderer->scene.heights.cell == 0.0f) {
+        frame->technique = vt_techniqueExact; // the same without a relief
     }
-    const vtFrame* frame = &resolved;
-    const vtGL* gl = &renderer->gl;
-    result = checkMeshes(&renderer->scene, vtTechnique_Row(frame->technique), error);
-    if (result != vt_ok) {
-        return result;
+    frame->view.eye = vtSub(frame->view.eye, renderer->scene.origin);
+    frame->view.target = vtSub(frame->view.target, renderer->scene.origin);
+    return checkMeshes(&renderer->scene, vtTechnique_Row(frame->technique), error);
+}
+
+vtResult vtRenderer_Prepare(vtRenderer* renderer, const vtFrame* asked, bool* ready, vtError* error)
+{
+    vtFrame frame;
+    vtProgramList programs = {0};
+    *ready = false;
+    const vtResult result = resolveFrame(renderer, asked, &frame, error);
+    if (result == vt_ok) {
+        startPrograms(renderer, &frame, &programs);
+        *ready = vtProgramList_IsReady(&programs, &renderer->gl);
     }
-    vtFrameUniforms uniforms;
-    const bool sameRest = renderer->technique == frame->technique &&
-                          renderer->backSurface == frame->backSurface && renderer->multi == frame->multi &&
-                          renderer->search == frame->search &&
-                          renderer->branches == vtFrame_BranchCount(frame);
-    renderer->sampleEnd = frame->firstSample > 0 && sameRest ? renderer->sampleEnd : 0;
-    vtMakeUniforms(&renderer->scene, frame, renderer->environment, &uniforms);
-    result = resizeTargets(renderer, frame, uniforms.size[2], uniforms.size[3], error);
-    result = result == vt_ok ? vtCheckGL(gl, "preparing the frame", error) : result;
-    if (result != vt_ok) {
-        return result;
-    }
-    const bool goesOn = memcmp(&uniforms, &renderer->uniforms, sizeof uniforms) == 0;
-    renderer->uniforms = uniforms;
+    return result;
+}
+
+/// Keeps what the next frame has to agree with to go on with this one's samples. True where this one agrees
+/// with the one before.
+static bool keepFrame(vtRenderer* renderer, const vtFrame* frame, const vtFrameUniforms* uniforms)
+{
+    const bool same = renderer->technique == frame->technique &&
+                      renderer->backSurface == frame->backSurface && renderer->multi == frame->multi &&
+                      renderer->search == frame->search && renderer->branches == vtFrame_BranchCount(frame) &&
+                      memcmp(uniforms, &renderer->uniforms, sizeof *uniforms) == 0;
+    renderer->uniforms = *uniforms;
     renderer->technique = frame->technique;
     renderer->backSurface = frame->backSurface;
     renderer->multi = frame->multi;
     renderer->search = frame->search;
     renderer->branches = vtFrame_BranchCount(frame);
-    vtSceneBuffer_SortGlass(&renderer->scene, frame->view.eye);
+    return same;
+}
 
-    endStage(frame, "prepare");
-#ifdef VT_WITH_BVH
-    result = prepareBvh(renderer, frame, error);
+vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* error)
+{
+    vtFrame resolved;
+    const vtFrame* frame = &resolved;
+    const vtGL* gl = &renderer->gl;
+    vtResult result = resolveFrame(renderer, asked, &resolved, error);
     if (result != vt_ok) {
         return result;
     }
-#endif
-    resetState(gl);
-    uploadSample(renderer, 0, 1); // cubes need their sizes
-    result = drawCubes(renderer, frame, error);
-    if (result != vt_ok) {
-        return result;
+    vtFrameUniforms uniforms;
+    vtProgramList programs = {0};
+    vtMakeUniforms(&renderer->scene, frame, renderer->environment.kind, &uniforms);
+    startPrograms(renderer, frame, &programs);
+    result = resizeTargets(renderer, frame, uniforms.size[2], uniforms.size[3], error);
+    if (result == vt_ok) {
+        result = vtProgramList_Finish(&programs, gl, error);
     }
-    const int sampleEnd = renderer->sampleEnd;
+    result = result == vt_ok ? vtCheckFrame(gl, "preparing the frame", error) : result;
+    int sampleEnd = renderer->sampleEnd;
     renderer->sampleEnd = 0; // should something fail
-    if (frame->output != vt_outputPicture || frame->firstSample + frame->samples == 1) {
-        drawStraight(renderer, frame);
+    if (result != vt_ok) {
+        return result;
+    }
+    const bool goesOn = keepFrame(renderer, frame, &uniforms) && frame->firstSample > 0;
+    vtSceneBuffer_SortGlass(&renderer->scene, frame->view.eye);
+    vtWriteObjectTable(&renderer->scene, frame);
+    const bool sameTable = !vtSceneBuffer_SetTable(&renderer->scene, gl);
+    sampleEnd = goesOn && sameTable ? sampleEnd : 0;
+    endStage(frame, "prepare");
+    resetState(gl);
+    if (addsSamples(frame)) {
+        drawSamples(renderer, frame, sampleEnd);
     } else {
-        result = drawSamples(renderer, frame, goesOn ? sampleEnd : 0, error);
+        drawStraight(renderer, frame);
     }
     gl->BindVertexArray(0);
-    return result == vt_ok ? vtCheckGL(gl, "drawing the frame", error) : result;
+    return vtCheckFrame(gl, "drawing the frame", error);
 }
 
 vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error)
@@ -605,14 +561,15 @@ vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_
 static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, vtError* error)
 {
     const vtGL* gl = &renderer->gl;
-    const int width = renderer->refract.targets[0].paths.width,
-              height = renderer->refract.targets[0].paths.height;
+    const int width = drawnPaths(renderer)->width, height = drawnPaths(renderer)->height;
     assert(width > 0 && "draw a frame before reading its directions");
     *paths = malloc(16 * (size_t)width * (size_t)height);
     if (*paths == NULL) {
         return vtFail(error, vt_errorMemory, "directions: out of memory for %d x %d pixels", width, height);
     }
-    gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->refract.framebuffers[0]);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, vtTechnique_Row(renderer->technique)->traces
+                                            ? renderer->trace.framebuffer
+                                            : renderer->refract.framebuffers[0]);
     gl->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, *paths);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
     return vt_ok;
@@ -620,8 +577,7 @@ static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, vtError* error
 
 vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error)
 {
-    const int width = renderer->refract.targets[0].paths.width,
-              height = renderer->refract.targets[0].paths.height;
+    const int width = drawnPaths(renderer)->width, height = drawnPaths(renderer)->height;
     uint32_t* paths;
     vtResult result = readPaths(renderer, &paths, error);
     if (result != vt_ok) {
@@ -645,8 +601,7 @@ vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtEr
 
 vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error)
 {
-    const int width = renderer->refract.targets[0].paths.width,
-              height = renderer->refract.targets[0].paths.height;
+    const int width = drawnPaths(renderer)->width, height = drawnPaths(renderer)->height;
     uint32_t* paths;
     vtResult result = readPaths(renderer, &paths, error);
     if (result != vt_ok) {
@@ -670,10 +625,10 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
         .device = (const char*)gl->GetString(GL_RENDERER),
         .version = (const char*)gl->GetString(GL_VERSION),
         .textureBytes = vtSurfacePass_Bytes(&renderer->surface) + vtPeelPass_Bytes(&renderer->peel) +
-                        vtTexture_Bytes(&renderer->merge.depths) + vtCubePass_Bytes(&renderer->cube) +
-                        vtTexture_Bytes(&renderer->bvh.nodes) + vtTexture_Bytes(&renderer->bvh.triangles) +
+                        vtTexture_Bytes(&renderer->merge.depths) + vtRefractPass_Bytes(&renderer->refract) +
+                        vtTexture_Bytes(&renderer->shade.radiance) + vtTracePass_Bytes(&renderer->trace) +
                         vtSceneBuffer_TextureBytes(&renderer->scene) +
-                        vtRefractPass_Bytes(&renderer->refract) + vtShadePass_Bytes(&renderer->shade) +
+                        vtEnvironmentBuffer_Bytes(&renderer->environment) +
                         vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image),
         .meshBytes = renderer->scene.meshBytes,
         .heightBytes = vtHeightTexture_Bytes(&renderer->scene.heights),

@@ -7,43 +7,19 @@
 
 #include "shaders.h"
 
-// The texture units of the refract pass, the same for every technique (passes/refract.c binds them).
+// The texture units of the refract pass, the same for every technique (passes/refract.c binds them); the last
+// four are the paths so far of objects in order.
 #define VT_REFRACT_SAMPLERS                                                                                  \
     {                                                                                                        \
-        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
-            "u_lightsBefore", "u_asidesBefore"                                                               \
-    }
-
-// The same with two more, which the renderer binds.
-#define VT_BVH_SAMPLERS                                                                                      \
-    {                                                                                                        \
-        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
-            "u_bvhNodes", "u_bvhTriangles"                                                                   \
-    }
-
-// The same with what branches start from, and two more, which the renderer binds.
-#define VT_HEIGHTS_SAMPLERS                                                                                  \
-    {                                                                                                        \
-        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
-            "u_lightsBefore", "u_asidesBefore", "u_heights", "u_heightRanges"                                \
-    }
-
-// The same with the paths so far.
-#define VT_ORDERED_SAMPLERS                                                                                  \
-    {                                                                                                        \
-        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths",                \
-            "u_cubeSurfaces", "u_cubeTriangles", "u_intervals", "u_triangles", "u_cubeColumns", "u_objects", \
-            "u_paths", "u_ends", "u_lights", "u_asides"                                                      \
+        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths", "u_objects",   \
+            "u_records", "u_objectTree", "u_paths", "u_ends", "u_lights", "u_asides"                         \
     }
 
 // What `layered` has in common whatever is around, with one of its searches.
 #define VT_LAYERED_CHUNKS(search)                                                                            \
-    &vtChunk_octahedral, &vtChunk_path, &vtChunk_objects, &vtChunk_media, &vtChunk_optics,                   \
-        &vtChunk_cross_surface, &vtChunk_first_surface, &vtChunk_layer_space, &vtChunk_layers_of_object,     \
-        &vtChunk_layers, &vtChunk_layer_walls, &vtChunk_##search
+    &vtChunk_octahedral, &vtChunk_media, &vtChunk_path, &vtChunk_write_path, &vtChunk_objects,               \
+        &vtChunk_optics, &vtChunk_cross_surface, &vtChunk_first_surface, &vtChunk_layer_space,               \
+        &vtChunk_layers_of_object, &vtChunk_layers, &vtChunk_layer_walls, &vtChunk_##search
 
 // Its programs that follow paths: through all glass, past opaque things, through one object.
 #define VT_LAYERED_ANY(title, search)                                                                        \
@@ -55,18 +31,17 @@
 #define VT_LAYERED_OPAQUE(title, search)                                                                     \
     {                                                                                                        \
         .name = title, .vertex = {&vtChunk_screen_vert},                                                     \
-        .fragment = {VT_LAYERED_CHUNKS(search),    &vtChunk_with_opaque,                                     \
-                     &vtChunk_triangles,           &vtChunk_cube,                                            \
-                     &vtChunk_walk_mesh,           &vtChunk_grid_walk,                                       \
-                     &vtChunk_search_exact,        &vtChunk_search_opaque,                                   \
-                     &vtChunk_refract_layered_frag},                                                         \
+        .fragment = {VT_LAYERED_CHUNKS(search), &vtChunk_with_opaque,   &vtChunk_records,                    \
+                     &vtChunk_object_tree,      &vtChunk_search_opaque, &vtChunk_refract_layered_frag},      \
         .samplers = VT_REFRACT_SAMPLERS                                                                      \
     }
 #define VT_LAYERED_ORDERED(title, search)                                                                    \
     {                                                                                                        \
         .name = title, .vertex = {&vtChunk_screen_vert},                                                     \
         .fragment = {VT_LAYERED_CHUNKS(search), &vtChunk_refract_ordered_frag},                              \
-        .samplers = VT_ORDERED_SAMPLERS                                                                      \
+        .samplers = VT_REFRACT_SAMPLERS, .uniforms = {                                                       \
+            "u_object"                                                                                       \
+        }                                                                                                    \
     }
 
 static const vtTechniqueRow rows[vt_techniqueCount] = {
@@ -82,7 +57,8 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layerSpace = vt_layersOfPicture,
             .refract[vt_variantAny] = {.name = "kay-linear",
                                        .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay,
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
+                                                    &vtChunk_write_path, &vtChunk_kay,
                                                     &vtChunk_refract_kay_linear_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
         },
@@ -97,8 +73,8 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layerSpace = vt_layersOfPicture,
             .refract[vt_variantAny] = {.name = "kay-nonlinear",
                                        .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay,
-                                                    &vtChunk_transparency,
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
+                                                    &vtChunk_write_path, &vtChunk_kay, &vtChunk_transparency,
                                                     &vtChunk_refract_kay_nonlinear_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
         },
@@ -113,8 +89,8 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layerSpace = vt_layersOfPicture,
             .refract[vt_variantAny] = {.name = "kay-thickness",
                                        .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_kay,
-                                                    &vtChunk_transparency,
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
+                                                    &vtChunk_write_path, &vtChunk_kay, &vtChunk_transparency,
                                                     &vtChunk_refract_kay_thickness_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
         },
@@ -128,9 +104,10 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .surface = true,
             .refract[vt_variantAny] = {.name = "single",
                                        .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
-                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
-                                                    &vtChunk_first_surface, &vtChunk_refract_single_frag},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
+                                                    &vtChunk_write_path, &vtChunk_objects, &vtChunk_optics,
+                                                    &vtChunk_cross_surface, &vtChunk_first_surface,
+                                                    &vtChunk_refract_single_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueWyman] =
@@ -145,11 +122,11 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layers = 2,
             .refract[vt_variantAny] = {.name = "wyman",
                                        .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
-                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
-                                                    &vtChunk_first_surface, &vtChunk_layer_space,
-                                                    &vtChunk_layers_of_all, &vtChunk_second_layer,
-                                                    &vtChunk_refract_wyman_frag},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
+                                                    &vtChunk_write_path, &vtChunk_objects, &vtChunk_optics,
+                                                    &vtChunk_cross_surface, &vtChunk_first_surface,
+                                                    &vtChunk_layer_space, &vtChunk_layers_of_all,
+                                                    &vtChunk_second_layer, &vtChunk_refract_wyman_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueOliveira] =
@@ -163,11 +140,11 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .layers = 2,
             .refract[vt_variantAny] = {.name = "oliveira",
                                        .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
-                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
-                                                    &vtChunk_first_surface, &vtChunk_layer_space,
-                                                    &vtChunk_layers_of_all, &vtChunk_second_layer,
-                                                    &vtChunk_refract_oliveira_frag},
+                                       .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
+                                                    &vtChunk_write_path, &vtChunk_objects, &vtChunk_optics,
+                                                    &vtChunk_cross_surface, &vtChunk_first_surface,
+                                                    &vtChunk_layer_space, &vtChunk_layers_of_all,
+                                                    &vtChunk_second_layer, &vtChunk_refract_oliveira_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueLayered] =
@@ -194,75 +171,22 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueExact] =
         {
             .info = {.id = "exact",
-                     .summary = "layers that know their triangles, walked by intervals: exact hits",
+                     .summary = "a wide hierarchy of the triangles, searched for every event: exact hits",
                      .source = "Vitrine",
                      .year = 2026,
                      .refracts = true},
-            .surface = true,
-            .cube = true,
-            .findsOpaque = true,
-            .branches = true,
-            .refract[vt_variantAny] = {.name = "exact",
-                                       .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
-                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
-                                                    &vtChunk_first_surface, &vtChunk_triangles, &vtChunk_cube,
-                                                    &vtChunk_walk_mesh, &vtChunk_grid_walk,
-                                                    &vtChunk_search_exact, &vtChunk_refract_exact_frag},
-                                       .samplers = VT_REFRACT_SAMPLERS},
+            .traces = true,
         },
     [vt_techniqueHeightField] =
         {
             .info = {.id = "heightfield",
-                     .summary = "as exact, but a relief by its heights alone: no triangles, no layers",
+                     .summary = "as exact, but a relief by its heights alone, without triangles",
                      .source = "Tevs, Ihrke & Seidel, Maximum Mipmaps for Height Field Rendering; Weng",
                      .year = 2008,
                      .refracts = true},
-            .surface = true,
-            .cube = true,
-            .findsOpaque = true,
-            .branches = true,
+            .traces = true,
             .heights = true,
-            .refract[vt_variantAny] = {.name = "heightfield",
-                                       .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
-                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
-                                                    &vtChunk_first_surface, &vtChunk_triangles, &vtChunk_cube,
-                                                    &vtChunk_walk_mesh, &vtChunk_grid_walk,
-                                                    &vtChunk_search_exact, &vtChunk_search_heights,
-                                                    &vtChunk_refract_exact_frag},
-                                       .samplers = VT_HEIGHTS_SAMPLERS},
-            // Software renderers run what no pixel needs, too: without the search through layers, the refract
-            // stage takes a fifth to a third less.
-            .refract[vt_variantHeights] = {.name = "heightfield alone",
-                                           .vertex = {&vtChunk_screen_vert},
-                                           .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
-                                                        &vtChunk_media, &vtChunk_optics,
-                                                        &vtChunk_cross_surface, &vtChunk_first_surface,
-                                                        &vtChunk_grid_walk, &vtChunk_search_heights,
-                                                        &vtChunk_refract_exact_frag},
-                                           .samplers = VT_HEIGHTS_SAMPLERS},
         },
-#ifdef VT_WITH_BVH
-    [vt_techniqueBvh] =
-        {
-            .info = {.id = "bvh",
-                     .summary =
-                         "yardstick: a hierarchy of the triangles walked in the shader, no image space",
-                     .source = "Aila & Laine, Understanding the Efficiency of Ray Traversal on GPUs",
-                     .year = 2026,
-                     .refracts = true},
-            .surface = true,
-            .bvh = true,
-            .refract[vt_variantAny] = {.name = "bvh",
-                                       .vertex = {&vtChunk_screen_vert},
-                                       .fragment = {&vtChunk_octahedral, &vtChunk_path, &vtChunk_objects,
-                                                    &vtChunk_media, &vtChunk_optics, &vtChunk_cross_surface,
-                                                    &vtChunk_first_surface, &vtChunk_triangles,
-                                                    &vtChunk_search_bvh, &vtChunk_refract_bvh_frag},
-                                       .samplers = VT_BVH_SAMPLERS},
-        },
-#endif
 };
 
 const vtTechniqueRow* vtTechnique_Row(vtTechnique technique)
@@ -271,7 +195,7 @@ const vtTechniqueRow* vtTechnique_Row(vtTechnique technique)
     return &rows[technique];
 }
 
-vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque, bool onlyRelief)
+vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque)
 {
     const vtProgramDef* defs = vtTechnique_Row(frame->technique)->refract;
     const bool cells = frame->search == vt_searchCells && defs[vt_variantCells].name != NULL;
@@ -279,9 +203,6 @@ vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque, bool onlyRelief)
     const vtVariant ordered = any + vt_variantOrdered, withOpaque = any + vt_variantOpaque;
     if (frame->multi == vt_multiOrdered && defs[ordered].name != NULL) {
         return ordered;
-    }
-    if (onlyRelief && defs[vt_variantHeights].name != NULL) {
-        return vt_variantHeights;
     }
     return opaque && defs[withOpaque].name != NULL ? withOpaque : any;
 }

@@ -22,7 +22,6 @@ typedef enum vtVariant {
     vt_variantCells,   ///< those three with vt_searchCells
     vt_variantCellsOpaque,
     vt_variantCellsOrdered,
-    vt_variantHeights, ///< where there is nothing but a relief that the technique meets by its heights
     vt_variantCount,
 } vtVariant;
 
@@ -33,20 +32,18 @@ typedef struct vtTechniqueRow {
     bool innerDistances; ///< per-vertex distance inwards, with it
     int layers;          ///< layers peeled: 0, a fixed number or VT_LAYERS_OF_FRAME
     vtLayerSpace layerSpace;
-    bool cube;                             ///< layered depth cube of all glass, or its like from the eye
-    bool branches;                         ///< can follow light that left a path
-    bool findsOpaque;                      ///< meets what is opaque on its paths
+    bool traces;                           ///< drawn by the trace pass alone: nothing above, no refract pass
+    bool heights;                          ///< that meets a relief by its heights
+    bool findsOpaque;                      ///< layered: meets what is opaque on its paths
     bool merge;                            ///< layers merged and gathered four to a texel
-    bool heights;                          ///< searches a relief by its heights
-    bool bvh;                              ///< hierarchy over the triangles
     vtProgramDef refract[vt_variantCount]; ///< those without a name are not there
 } vtTechniqueRow;
 
 const vtTechniqueRow* vtTechnique_Row(vtTechnique technique);
 
-/// The program for the frame; `opaque`: there is something that is; `onlyRelief`: nothing but one with
-/// heights. Ordered, and with the search, that the frame says where the technique has them.
-vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque, bool onlyRelief);
+/// The program for the frame; `opaque`: there is something that is. Ordered, and with the search, that the
+/// frame says where the technique has them.
+vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque);
 
 static inline bool vtVariant_IsOrdered(vtVariant variant)
 {
@@ -56,8 +53,11 @@ static inline bool vtVariant_IsOrdered(vtVariant variant)
 /// Layers that the frame's technique peels.
 int vtFrame_LayerCount(const vtFrame* frame);
 
-/// Layers of the cubes: those of the frame, or of its preset where the technique needs none itself.
-int vtFrame_CubeLayers(const vtFrame* frame);
+/// Has the frame paths without Fresnel reflection?
+static inline bool vtFrame_IsStrict(const vtFrame* frame)
+{
+    return !frame->fresnel || frame->output != vt_outputPicture;
+}
 
 /// Branches that the frame's paths have, 0 to VT_MAX_BRANCHES.
 int vtFrame_BranchCount(const vtFrame* frame);

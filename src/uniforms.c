@@ -92,11 +92,8 @@ void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, vtEnvironm
         .kay = {frame->maxTransmittance, frame->minTransmittance, frame->power, wall},
         .search = {vtFrame_LayerCount(frame), frame->steps, frame->refine, frame->maxEvents},
         .size = {frame->width, frame->height, layerWidth, layerHeight},
-        .cube = {frame->cubeSize, vtFrame_CubeLayers(frame), frame->layerSource == vt_layersFromEye ? 1 : 3,
-                 frame->topLevel},
-        .scene = {(int)scene->glassCount, (int)scene->objectCount,
-                  frame->fresnel && frame->output == vt_outputPicture,
-                  row->findsOpaque && !vtVariant_IsOrdered(vtFrame_Variant(frame, true, false))},
+        .scene = {(int)scene->glassCount, (int)scene->objectCount, !vtFrame_IsStrict(frame),
+                  row->findsOpaque && !vtVariant_IsOrdered(vtFrame_Variant(frame, true))},
         .output = {frame->output, frame->layer, environment, frame->transparentBackground},
     };
     setCamera(uniforms, &frame->view);

@@ -24,7 +24,6 @@
 
 #ifndef __EMSCRIPTEN__
 #define VT_WITH_CELLS ///< vt_searchCells; web pages search in steps whatever vtFrame.search says
-#define VT_WITH_BVH   ///< technique `bvh` and the counting of texture reads, for measurements
 #endif
 
 #ifdef __cplusplus
@@ -87,6 +86,7 @@ typedef struct vtMesh {
     float* colors;            ///< 3 * vertexCount, linear, or NULL
     struct vtHeightField*
         heights; ///< of a relief, which has no triangles before vtTriangulateRelief; or NULL
+    struct vtHierarchy* hierarchy; ///< over the triangles (vtBeginPreparation), or NULL
 } vtMesh;
 
 /// Copies and checks triangles. Missing normals are computed as angle-weighted means over welded
@@ -107,6 +107,13 @@ vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error);
 /// Names of the built-in shapes, by index; NULL past the end. `vtShapeSummary` says what each is.
 const char* vtShapeName(int index);
 const char* vtShapeSummary(int index);
+
+/// Moves a mesh's vertices: new positions and normals, 3 * vertexCount each; normals NULL: computed. Its
+/// hierarchy, where it has one, is refitted, or built anew where the moves have made it half as costly again
+/// as it was; bounds follow, inner distances and a relief's heights go. A mesh with triangles of no area is
+/// always built anew: they may get one. vtRenderer_UpdateMesh draws it so. Fails with vt_errorGeometry for a
+/// NaN or infinite number or a mesh without triangles, the mesh as it was, or with vt_errorMemory.
+vtResult vtMesh_Update(vtMesh* mesh, const float* positions, const float* normals, vtError* error);
 
 /// Frees what the mesh holds and zeroes it. Safe on a zeroed mesh.
 void vtDestroyMesh(vtMesh* mesh);
@@ -321,9 +328,6 @@ typedef enum vtTechnique {
     vt_techniqueLayered,
     vt_techniqueExact,
     vt_techniqueHeightField,
-#ifdef VT_WITH_BVH // a yardstick, kept out of web pages
-    vt_techniqueBvh,
-#endif
     vt_techniqueCount,
 } vtTechnique;
 
@@ -345,6 +349,18 @@ vtTechnique vtFindTechnique(const char* id);
 /// as vtComputeInnerDistances and vtTriangulateRelief do.
 vtResult vtPrepareScene(vtScene* scene, vtTechnique technique, bool* changed, vtError* error);
 
+/// Builds the hierarchies that `exact` searches, which vtRenderer_SetScene builds itself where they are not
+/// there, in slices, so that a page or a window goes on meanwhile. The scene must stay as it is until the
+/// end. NULL where memory is out.
+typedef struct vtPreparation vtPreparation;
+vtPreparation* vtBeginPreparation(vtScene* scene);
+/// Does about `work` units, a unit about the look at one triangle (some 50 ns); true once nothing is left to
+/// do.
+bool vtPreparation_Step(vtPreparation* preparation, uint32_t work);
+/// Ends it, done or not; what has been built stays with the meshes. Fails as building did: vt_errorMemory, or
+/// vt_errorGeometry for more triangles than a hierarchy can hold (about 8 million).
+vtResult vtEndPreparation(vtPreparation* preparation, vtError* error);
+
 typedef enum vtOutput {
     vt_outputPicture = VT_OUTPUT_PICTURE,   ///< the glass before its environment, sRGB
     vt_outputAnalysis = VT_OUTPUT_ANALYSIS, ///< path colours: red two refractions, blue more, green where TIR
@@ -354,21 +370,12 @@ typedef enum vtOutput {
     vt_outputLayerNormal = VT_OUTPUT_LAYER_NORMAL, ///< world-space normal of layer `layer` as 0.5 + 0.5 n
 } vtOutput;
 
-/// Where `exact` has its layers from.
-typedef enum vtLayerSource {
-    vt_layersFromCube = 0, ///< along three axes of the mesh's own, peeled once: for rigid meshes
-    vt_layersFromEye,      ///< from the eye, peeled each frame: for meshes that change
-} vtLayerSource;
-
 /// What a frame's settings are where it says 0: less work for weak GPUs, more accuracy for strong ones.
 ///
 /// |                       | low | medium | high |
 /// |-----------------------|-----|--------|------|
 /// | layers peeled         | 2   | 4      | 8    |
 /// | linear steps          | 25  | 50     | 100  |
-/// | exact: layers         | 4   | 8      | 8    |
-/// | exact: steps          | 64  | 256    | 512  |
-/// | exact: texels a side  | 64  | 128    | 256  |
 /// | events                | 4   | 8      | 8    |
 /// | exact: branches       | 0   | 1      | 2    |
 typedef enum vtPreset { vt_presetLow = 0, vt_presetMedium, vt_presetHigh, vt_presetCount } vtPreset;
@@ -396,8 +403,8 @@ typedef enum vtBackSurface {
 
 #define VT_MAX_SAMPLES 4096
 
-/// `stage`: prepare (sizes, shaders not compiled yet), bvh, cube, surface, peel, merge, refract, shade or
-/// present; those that a frame has, in this order.
+/// `stage`: prepare (sizes, shaders not compiled yet), surface, peel, merge, refract, shade, or in place of
+/// these trace; present; those that a frame has, in this order.
 typedef void vtStageFcn(const char* stage, void* userData);
 
 /// Everything that decides one picture.
@@ -417,16 +424,11 @@ typedef struct vtFrame {
     vtSearch search; ///< layered; default vt_searchSteps
     vtPreset preset; ///< of the settings that are 0; default vt_presetMedium
     int layers;      ///< depth layers peeled, 1 to VT_MAX_LAYERS; 0, the default: the preset's
-    int steps;       ///< search steps a segment, 1 to VT_MAX_STEPS: linear ones; exact: texels of its pyramid
-                     ///< read; 0, the default: the preset's
+    int steps;       ///< linear search steps a segment, 1 to VT_MAX_STEPS; 0, the default: the preset's
     int refine;      ///< binary search steps after them, 0 to VT_MAX_REFINE; default 8
     int maxEvents;   ///< refractions and internal reflections of a path, 1 to VT_MAX_EVENTS; 0, the default:
                      ///< the preset's
     int layerSize;   ///< longer side of the layer textures, texels, 16 to 8192; 0: that of the picture
-    vtLayerSource layerSource; ///< exact; default vt_layersFromCube
-    int cubeSize; ///< exact: texels along a side of its layers, a power of two, 32 to 1024; 0, the default:
-                  ///< the preset's
-    int topLevel; ///< exact: highest level of the interval pyramid, 0 (walks texel by texel) to 9; default 7
     vtBackSurface backSurface; ///< wyman; default vt_backSecond
     float transmittance; ///< 0 to 1: of a surface (kay-linear), of a unit of length (kay-thickness); default
                          ///< 0.8
@@ -453,10 +455,6 @@ vtFrame vtDefaultFrame(void);
 /// The frame with every 0 that leaves a setting to the preset replaced by what it stands for.
 vtFrame vtResolveFrame(const vtFrame* frame);
 
-/// GPU memory that `exact` takes for the layers of one mesh with the frame's settings, bytes; the mesh itself
-/// and the picture not counted. Instances share it.
-size_t vtFrame_CubeBytes(const vtFrame* frame);
-
 /// Checks every field against its documented range; the sentence names field, value and range.
 vtResult vtValidateFrame(const vtFrame* frame, vtError* error);
 
@@ -479,8 +477,8 @@ typedef struct vtPath {
 
 /// The exact path of the eye ray through a point of the picture, x from the left and y from the top in
 /// pixels (pixel centres at .5), traced on the CPU: what the techniques imitate. frame gives view, ior, size
-/// and maxEvents. Only where indices differ there is an event; where light could pass it does. Some
-/// milliseconds: it builds its search structures each time.
+/// and maxEvents. Only where indices differ there is an event; where light could pass it does. Builds
+/// the hierarchies that the meshes lack each time.
 vtResult vtTracePath(const vtScene* scene, const vtFrame* frame, float x, float y, vtPath* path,
                      vtError* error);
 
@@ -498,13 +496,13 @@ typedef struct vtRendererInfo {
     const char* vendor;
     const char* device;
     const char* version;
-    size_t textureBytes;         ///< GPU memory of layers, hierarchy, targets and environment
-    size_t meshBytes;            ///< GPU memory of the mesh
+    size_t textureBytes;         ///< GPU memory of layers, targets and environment
+    size_t meshBytes;            ///< GPU memory of the meshes: hierarchies and vertices
     size_t heightBytes;          ///< of textureBytes: a relief's heights, with or without triangles
     int layerWidth, layerHeight; ///< of the last frame, texels
 } vtRendererInfo;
 
-/// Compiles the shaders in the current context. Fails with vt_errorContext and the reason.
+/// In the current context. Fails with vt_errorContext and the reason.
 vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** renderer, vtError* error);
 /// Frees all GL objects; the same context must be current. Safe on NULL.
 void vtDestroyRenderer(vtRenderer* renderer);
@@ -514,7 +512,16 @@ void vtDestroyRenderer(vtRenderer* renderer);
 vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError* error);
 /// A scene of one object of glass of index 1.5.
 vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error);
+/// Draws a mesh of the scene, which is the one that was set, as vtMesh_Update has changed it. Only what
+/// changed is uploaded, unless its hierarchy was built anew and is larger, or was not there when the scene
+/// was set: then the whole scene is.
+vtResult vtRenderer_UpdateMesh(vtRenderer* renderer, const vtScene* scene, uint32_t mesh, vtError* error);
 vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error);
+
+/// Starts what a frame is drawn with, shaders above all, without waiting for it. *ready: nothing is left to
+/// wait for, as far as the driver tells. A page asks again each frame and draws when it is; without this call
+/// vtRenderer_Draw waits. Fails as vtRenderer_Draw does for a frame that cannot be drawn.
+vtResult vtRenderer_Prepare(vtRenderer* renderer, const vtFrame* frame, bool* ready, vtError* error);
 
 /// Draws one frame into frame->framebuffer, whose lower left width x height pixels are overwritten.
 /// Leaves that framebuffer bound, depth test, blending and face culling off.

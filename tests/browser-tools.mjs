@@ -12,13 +12,19 @@ export const gpus = {
   gpu: process.platform === 'linux' ? ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'] : ['--ignore-gpu-blocklist'],
 };
 
-const quiet = ['--no-sandbox', '--disable-sync', '--disable-quic', '--no-first-run', '--disable-background-networking',
+/**
+ * How long a test waits for what must come, milliseconds: far longer than it takes on a slow machine that does something
+ * else as well, so that only what never comes fails.
+ */
+export const patience = 180000;
+
+const flags = ['--no-sandbox', '--disable-sync', '--disable-quic', '--no-first-run', '--disable-background-networking',
   '--disable-component-update', '--disable-gpu-watchdog'];
 
 /** Chromium without a window. @param {'llvmpipe'|'swiftshader'|'gpu'} gpu */
 export async function launch(gpu = 'llvmpipe', options = {}) {
   const { chromium } = await import('playwright-core');
-  return chromium.launch({ executablePath: chromiumPath, args: [...quiet, ...gpus[gpu]], ...options });
+  return chromium.launch({ executablePath: chromiumPath, args: [...flags, ...gpus[gpu]], timeout: patience, ...options });
 }
 
 const types = {
@@ -50,6 +56,78 @@ export function answerWithFile(folder, pathname, response) {
 export function serve(folder) {
   return listen((request, response) => answerWithFile(folder, new URL(request.url, 'http://localhost').pathname, response));
 }
+
+/** In a page, before its scripts: knows what they have yet to do, for `quiet`. */
+function watchWork() {
+  const waiting = { frames: new Set(), timers: new Set(), promises: 0 };
+  const { requestAnimationFrame, cancelAnimationFrame, setTimeout, clearTimeout } = window;
+  window.requestAnimationFrame = (act) => {
+    const id = requestAnimationFrame((time) => {
+      waiting.frames.delete(id);
+      act(time);
+    });
+    waiting.frames.add(id);
+    return id;
+  };
+  window.cancelAnimationFrame = (id) => {
+    waiting.frames.delete(id);
+    cancelAnimationFrame(id);
+  };
+  window.setTimeout = (act, delay = 0, ...values) => {
+    const id = setTimeout(() => {
+      waiting.timers.delete(id);
+      act(...values);
+    }, delay);
+    if (delay < 1000) waiting.timers.add(id); // longer ones tidy up
+    return id;
+  };
+  window.clearTimeout = (id) => {
+    waiting.timers.delete(id);
+    clearTimeout(id);
+  };
+  const promising = [
+    [window, 'fetch', 'createImageBitmap'], [Response.prototype, 'arrayBuffer', 'blob', 'json', 'text'],
+    [ReadableStreamDefaultReader.prototype, 'read'], [WebAssembly, 'compile', 'compileStreaming', 'instantiate', 'instantiateStreaming'],
+    [HTMLImageElement.prototype, 'decode'], [window.scheduler, 'postTask', 'yield'],
+  ];
+  for (const [owner, ...names] of promising) {
+    for (const name of names.filter((one) => owner?.[one])) {
+      const real = owner[name];
+      owner[name] = function (...values) {
+        ++waiting.promises;
+        const answer = real.apply(this, values);
+        const count = () => --waiting.promises;
+        answer.then(count, count);
+        return answer;
+      };
+    }
+  }
+  const isMoving = ({ playState, effect }) => playState === 'running' && effect?.getComputedTiming().endTime !== Infinity;
+  const work = () => ({
+    frames: waiting.frames.size, timers: waiting.timers.size, promises: waiting.promises,
+    animations: document.getAnimations().filter(isMoving).length, images: [...document.images].filter(({ complete }) => !complete).length,
+  });
+  window.whenQuiet = async (limit) => {
+    const start = performance.now();
+    for (let still = 0; still < 3;) { // frames: observers of size and of visibility answer in the next one
+      await new Promise((done) => requestAnimationFrame(done));
+      const now = work();
+      still = Object.values(now).every((count) => count === 0) ? still + 1 : 0;
+      if (performance.now() - start > limit) throw new Error(`the page is never quiet: ${JSON.stringify(now)}`);
+    }
+  };
+}
+
+/** A page of a context of its own, which is closed with `page.context().close()`; it waits patiently. */
+export async function openPage(browser, options = {}) {
+  const context = await browser.newContext(options);
+  context.setDefaultTimeout(patience);
+  await context.addInitScript(watchWork);
+  return context.newPage();
+}
+
+/** Until the page of openPage has nothing to do: no frame, short timer, file, picture or animation is awaited. */
+export const quiet = (page) => page.evaluate((limit) => window.whenQuiet(limit), patience);
 
 /** What of [there, name] is missing, as the reason to skip; false where nothing is. */
 export function skipWithout(...needs) {

@@ -7,7 +7,7 @@ import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { cube, glb, gltf, tetrahedron } from '../scripts/glb.mjs';
-import { answerWithFile, chromiumPath, launch, listen, skipWithout } from './browser-tools.mjs';
+import { answerWithFile, chromiumPath, launch, listen, openPage, quiet, skipWithout } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
@@ -23,6 +23,10 @@ const skip = skipWithout(
   [existsSync(chromiumPath), chromiumPath],
 );
 const [, { default: pixelmatch }, { PNG }] = modules ?? [{}, {}, {}];
+
+const side = 128; // of most pictures that are compared, pixels: a software GPU draws them
+
+const ofSide = `<style>vitrine-viewer { width: ${side}px; height: ${side}px }</style>`;
 
 const csp = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; img-src 'self'";
 const sheet = 'body { margin: 0; background: rgb(20, 90, 40); } vitrine-viewer { width: 160px; height: 160px; } .far { height: 3000px; }';
@@ -101,8 +105,8 @@ const reliefs = PNG && new Map([
   ['/words.txt', Buffer.from('no picture')],
 ]);
 
-/** The built site, test pages from memory, and files that come slowly or not at all. */
-function startServer(requests, pages) {
+/** The built site, test pages from memory, and a file of which the second half waits until its gate is opened. */
+function startServer(requests, pages, gates) {
   return listen(async (request, response) => {
     const { pathname } = new URL(request.url, 'http://localhost');
     requests.push(pathname);
@@ -122,11 +126,9 @@ function startServer(requests, pages) {
     } else if (pathname === '/slow.glb') {
       const bytes = pyramid({ padding: 400000 });
       response.writeHead(200, { 'content-type': 'model/gltf-binary', 'content-length': bytes.length });
-      for (let at = 0; at < bytes.length; at += 50000) {
-        response.write(bytes.subarray(at, at + 50000));
-        await new Promise((done) => setTimeout(done, 60));
-      }
-      response.end();
+      response.write(bytes.subarray(0, 200000));
+      await new Promise((open) => gates.push(open));
+      response.end(bytes.subarray(200000));
     } else if (pathname === '/panorama.png') {
       send(PNG.sync.write(panorama()), 'image/png');
     } else if (pathname === '/panorama.hdr') {
@@ -183,16 +185,17 @@ function meanError(a, b) {
 }
 
 const pixel = ({ data, width }, x, y) => [...data.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)];
+/** For what must not happen in that time. */
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 
 describe('the element', { skip }, () => {
-  const requests = [], pages = new Map();
+  const requests = [], pages = new Map(), gates = [];
   let server, browser, folder;
 
   before(async () => {
     mkdirSync(screenshots, { recursive: true });
     folder = mkdtempSync(join(tmpdir(), 'vitrine-element-'));
-    server = await startServer(requests, pages);
+    server = await startServer(requests, pages, gates);
     browser = await launch();
   });
   after(async () => {
@@ -207,8 +210,7 @@ describe('the element', { skip }, () => {
     const head = '<!doctype html><html lang="en"><title>Test</title><link rel="stylesheet" href="/test.css"><link rel="icon" href="/poster.png">';
     const quick = body.replaceAll(/<vitrine-viewer(?![^>]*samples=)/g, '<vitrine-viewer samples="1"');
     pages.set(path, { html: `${head}<script type="module" src="/element/vitrine-viewer.js"></script>${quick}`, headers });
-    const context = await browser.newContext({ viewport: { width: 360, height: 360 }, ...options });
-    const page = await context.newPage();
+    const page = await openPage(browser, { viewport: { width: 360, height: 360 }, ...options });
     const complaints = [];
     page.on('pageerror', (error) => complaints.push(String(error)));
     page.on('console', (message) => {
@@ -216,7 +218,7 @@ describe('the element', { skip }, () => {
       if (isBad && !allowed.test(message.text())) complaints.push(message.text());
     });
     t.after(async () => {
-      await context.close();
+      await page.context().close();
       assert.deepEqual(complaints, []);
     });
     await page.addInitScript(instrument);
@@ -224,11 +226,13 @@ describe('the element', { skip }, () => {
     await page.goto(`${server.address}${path}`);
     if (waits) {
       await page.waitForFunction(() => [...document.querySelectorAll('vitrine-viewer')].every((viewer) => viewer.loaded));
-      await settle(page);
+      await quiet(page);
     }
     return page;
   }
 
+  /** The last request for /slow.glb gets the rest. */
+  const openGate = () => gates.splice(0).at(-1)();
   const draws = (page) => page.evaluate(() => window.counts.draws);
   const events = (page, type) => page.evaluate((name) => window.events.filter(({ event }) => event === name), type);
   const message = (page, id = 'a') => page.evaluate((name) => {
@@ -236,15 +240,6 @@ describe('the element', { skip }, () => {
     return part.hidden ? '' : part.textContent;
   }, id);
   const shot = async (page, id = 'a') => PNG.sync.read(await page.locator(`#${id}`).screenshot());
-
-  /** Until nothing has been drawn for longer than a view takes to rest. */
-  async function settle(page) {
-    for (let before = -1, now = 0; before !== now; ) {
-      before = await draws(page);
-      await pause(400);
-      now = await draws(page);
-    }
-  }
 
   async function picture(page, id = 'a') {
     const url = await page.evaluate((name) => document.getElementById(name).toDataURL(), id);
@@ -255,24 +250,24 @@ describe('the element', { skip }, () => {
   async function shown(page, changes) {
     await page.evaluate((values) => Object.assign(a, values), changes);
     await page.waitForFunction(() => a.loaded);
-    await settle(page);
+    await quiet(page);
     assert.equal(await message(page), '');
     return picture(page);
   }
 
   function nativePicture(...args) {
-    const result = spawnSync(binary, ['render', ...args, '-o', 'native.png', '--resolution', '256,256'],
+    const result = spawnSync(binary, ['render', ...args, '-o', 'native.png', '--resolution', `${side},${side}`],
       { cwd: folder, env: { ...process.env, ASAN_OPTIONS: 'detect_leaks=0' } });
     assert.equal(result.status, 0, result.stderr.toString());
     return PNG.sync.read(readFileSync(join(folder, 'native.png')));
   }
 
   test('draws what the native program draws', async (t) => {
-    const page = await open(t, '<vitrine-viewer id="a" src="knot" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
+    const page = await open(t, `<vitrine-viewer id="a" src="knot" skybox-image></vitrine-viewer>${ofSide}`);
     for (const technique of ['exact', 'layered', 'wyman', 'single']) {
       await page.evaluate((id) => (a.technique = id), technique);
       const expected = nativePicture('knot', '--technique', technique);
-      await settle(page);
+      await quiet(page);
       for (const [name, seen] of [['toBlob', await picture(page)], ['screen', await shot(page)]]) {
         const differing = difference(seen, expected);
         t.diagnostic(`${technique}, ${name}: ${differing.toFixed(4)} % differ`);
@@ -281,17 +276,17 @@ describe('the element', { skip }, () => {
     }
     await page.evaluate(() => Object.assign(a, { technique: 'exact', src: 'goblet', environmentImage: 'checker', cameraOrbit: '0rad 90deg 6m', cameraTarget: '0m 0m 0m', exposure: 2, ior: 1.3 }));
     await page.waitForFunction(() => a.loaded);
-    await settle(page);
+    await quiet(page);
     const expected = nativePicture('goblet', '-e', 'checker', '--camera', '0,0,6', '--target', '0,0,0', '--exposure', '1', '--ior', '1.3');
     assert.ok(difference(await picture(page), expected) < 0.5, 'a view of its own');
   });
 
   test('takes pictures as environment, decoded by the browser to the file\'s own numbers', async (t) => {
-    const page = await open(t, '<vitrine-viewer id="a" src="sphere" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
+    const page = await open(t, `<vitrine-viewer id="a" src="sphere" skybox-image></vitrine-viewer>${ofSide}`);
     for (const [name, bytes] of [['panorama.png', PNG.sync.write(panorama())], ['panorama.hdr', radiance]]) {
       writeFileSync(join(folder, name), bytes);
-      await Promise.all([page.waitForResponse(`**/${name}`), page.evaluate((url) => (a.environmentImage = url), `/${name}`)]);
-      await settle(page);
+      await page.evaluate((url) => (a.environmentImage = url), `/${name}`);
+      await quiet(page);
       const differing = difference(await picture(page), nativePicture('sphere', '-e', name));
       assert.ok(differing < 0.5, `${name}: ${differing} % differ`);
     }
@@ -307,35 +302,35 @@ describe('the element', { skip }, () => {
   });
 
   test('a still view becomes clean, then nothing is drawn', async (t) => {
-    const page = await open(t, '<vitrine-viewer id="a" src="sphere" layers="2" environment-image="checker" skybox-image camera-controls samples="64"></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>');
+    const page = await open(t, `<vitrine-viewer id="a" src="sphere" layers="2" environment-image="checker" skybox-image camera-controls samples="24"></vitrine-viewer>${ofSide}`);
     const shown = () => page.evaluate(() => window.shown);
-    assert.equal(await shown(), 64);
+    assert.equal(await shown(), 24);
     const before = await draws(page);
     await pause(500);
     assert.equal(await draws(page), before, 'idle');
     const clean = await shot(page);
     assert.ok(difference(await picture(page), clean) < 0.01, 'the file is the picture on the screen');
     assert.equal(await draws(page), before + 1, 'and nothing else is drawn for it');
-    const truth = nativePicture('sphere', '--layers', '2', '-e', 'checker', '--samples', '64');
+    const truth = nativePicture('sphere', '--layers', '2', '-e', 'checker', '--samples', '24');
     const error = meanError(clean, truth);
 
     await page.focus('#a');
     await page.evaluate(() => a.shadowRoot.querySelector('.view').focus());
     await page.keyboard.press('ArrowLeft');
-    await settle(page);
-    assert.equal(await shown(), 128, 'turning starts anew');
+    await quiet(page);
+    assert.equal(await shown(), 48, 'turning starts anew');
     assert.ok(difference(clean, await shot(page)) > 5);
     await page.keyboard.press('Home');
     await page.evaluate(() => (a.samples = 1));
     await page.evaluate(() => document.activeElement.blur());
-    await settle(page);
+    await quiet(page);
     const stairs = meanError(await shot(page), truth);
-    t.diagnostic(`mean error of 1 sample ${stairs.toFixed(2)}, of 64 ${error.toFixed(2)} of 255`);
+    t.diagnostic(`mean error of 1 sample ${stairs.toFixed(2)}, of 24 ${error.toFixed(2)} of 255`);
     assert.ok(error < 0.2 * stairs);
 
     await page.evaluate(() => (a.samples = 4));
     await page.evaluate(() => a.removeAttribute('skybox-image'));
-    await settle(page);
+    await quiet(page);
     const { data } = await picture(page);
     const partly = data.filter((value, i) => i % 4 === 3 && value > 0 && value < 255).length;
     assert.ok(partly > 100, 'the edge is partly transparent');
@@ -353,14 +348,14 @@ describe('the element', { skip }, () => {
     await page.focus('#a');
     await page.evaluate(() => a.setAttribute('src', 'diamond'));
     await page.waitForFunction(() => a.loaded);
-    await settle(page);
+    await quiet(page);
     assert.ok(difference(a, await shot(page)) > 5, 'one changes');
     assert.equal(difference(b, await shot(page, 'b')), 0, 'the other stays');
     await page.evaluate(() => a.remove());
-    await pause(50);
+    await quiet(page);
     await page.evaluate(() => (b.src = 'bottle'));
     await page.waitForFunction(() => b.loaded);
-    await settle(page);
+    await quiet(page);
     assert.ok(difference(b, await shot(page, 'b')) > 2, 'and goes on alone');
   });
 
@@ -373,7 +368,7 @@ describe('the element', { skip }, () => {
     for (let x = 50; x < 110; ++x) glass.add(String(pixel(clear, x, 80)));
     assert.ok(!glass.has('20,90,40') && glass.size > 10, 'the glass shows the studio');
     await page.evaluate(() => a.setAttribute('skybox-image', 'checker'));
-    await settle(page);
+    await quiet(page);
     const full = await shot(page);
     assert.notDeepEqual(pixel(full, 2, 2), [20, 90, 40]);
     assert.ok(difference(clear, full) > 30);
@@ -388,7 +383,7 @@ describe('the element', { skip }, () => {
       const cycle = async (count) => {
         for (let i = 0; i < count; ++i) {
           const viewer = document.createElement('vitrine-viewer');
-          Object.assign(viewer, { src: 'knot', steps: 2, layers: 1 });
+          Object.assign(viewer, { src: 'knot', steps: 2, layers: 1, samples: 1 });
           window.refs.push(new WeakRef(viewer));
           window.one.append(viewer);
           await loads(viewer);
@@ -396,15 +391,15 @@ describe('the element', { skip }, () => {
           await new Promise((done) => setTimeout(done));
         }
       };
-      await cycle(5);
+      await cycle(4);
       const before = (await VitrineViewer.statistics()).heapBytes;
       const start = performance.now();
-      await cycle(100);
+      await cycle(24);
       const after = await VitrineViewer.statistics();
       const milliseconds = performance.now() - start;
 
       const viewer = document.createElement('vitrine-viewer');
-      viewer.src = 'sphere';
+      Object.assign(viewer, { src: 'sphere', samples: 1 });
       window.one.append(viewer);
       await loads(viewer);
       const made = window.counts.contexts.length;
@@ -424,7 +419,7 @@ describe('the element', { skip }, () => {
     assert.deepEqual([measured.live, measured.last.contexts], [0, 0]);
     await (await page.context().newCDPSession(page)).send('HeapProfiler.collectGarbage');
     const kept = await page.evaluate(() => window.refs.filter((ref) => ref.deref()).length);
-    t.diagnostic(`${kept} of 105 elements are still in memory`);
+    t.diagnostic(`${kept} of 28 elements are still in memory`);
     assert.ok(kept <= 2);
   });
 
@@ -439,24 +434,25 @@ describe('the element', { skip }, () => {
     t.diagnostic(`${live} contexts`);
     assert.ok(live <= 12);
     await page.evaluate(() => window.v0.scrollIntoView());
-    await settle(page);
+    await quiet(page);
     const first = await shot(page, 'v0');
     assert.notDeepEqual(pixel(first, 80, 150), [20, 90, 40], 'the first comes back');
   });
 
   test('poster and progress stand until the first frame', async (t) => {
     const page = await open(t, '<vitrine-viewer id="a" src="/slow.glb" poster="/poster.png" alt="A pyramid"></vitrine-viewer>', { waits: false });
-    await page.waitForFunction(() => window.events.filter(({ totalProgress }) => totalProgress > 0.3).length > 0);
+    await page.waitForFunction(() => window.events.some(({ totalProgress }) => totalProgress > 0.3));
     const loading = await shot(page);
     writeFileSync(join(screenshots, 'element-loading.png'), PNG.sync.write(loading));
     assert.deepEqual(pixel(loading, 80, 80), [250, 10, 200]);
     assert.notDeepEqual(pixel(loading, 10, 2), [250, 10, 200], 'the bar');
+    openGate();
     await page.waitForFunction(() => a.loaded);
-    await settle(page);
+    await quiet(page);
     assert.deepEqual(pixel(await shot(page), 2, 2), [20, 90, 40], 'the poster is gone');
     const values = (await events(page, 'progress')).map(({ totalProgress }) => totalProgress);
     t.diagnostic(values.map((value) => value.toFixed(3)).join(' '));
-    assert.ok(values.length >= 8 && values[0] === 0 && values.at(-1) === 1);
+    assert.ok(values.length >= 4 && values[0] === 0 && values.at(-1) === 1);
     assert.ok(values.every((value, i) => i === 0 || value > values[i - 1]));
     assert.equal((await events(page, 'load')).length, 1);
     assert.equal(await page.evaluate(() => getComputedStyle(a.shadowRoot.querySelector('[part=progress-bar]')).display), 'none');
@@ -493,7 +489,7 @@ describe('the element', { skip }, () => {
     assert.equal(difference(first, await shot(page)), 0);
 
     await page.evaluate(() => Object.assign(a, { ior: 9, layers: 2.5, cameraOrbit: 'left' }));
-    await pause(50);
+    await quiet(page);
     const text = await message(page);
     for (const part of [/ior is '9'; it must be a number from 1 to 4; 4 is used/, /layers is '2.5'/, /camera-orbit is 'left'/]) assert.match(text, part);
     assert.deepEqual((await events(page, 'error')).at(-1).type, 'invalid');
@@ -502,9 +498,10 @@ describe('the element', { skip }, () => {
 
   test('several objects, each of its own index', async (t) => {
     requests.length = 0;
-    const page = await open(t, '<vitrine-viewer id="a" skybox-image environment-image="checker" objects="sphere:at=-1.2,0,0, ior = 1.2; sphere:at=1.2,0,0;"></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>', { allowed: /404/ });
+    const page = await open(t, `<vitrine-viewer id="a" skybox-image environment-image="checker" objects="sphere:at=-1.2,0,0, ior = 1.2; sphere:at=1.2,0,0;"></vitrine-viewer>${ofSide}`, { allowed: /404/ });
     const show = (changes) => shown(page, changes);
-    const part = (image, from, to) => {
+    const part = (image, ...ends) => {
+      const [from, to] = ends.map(Math.round);
       const half = new PNG({ width: to - from, height: image.height });
       PNG.bitblt(image, half, from, 0, to - from, image.height, 0, 0);
       return half;
@@ -512,8 +509,8 @@ describe('the element', { skip }, () => {
     const first = await picture(page);
     assert.ok(difference(first, nativePicture('--object', 'sphere:at=-1.2,0,0,ior=1.2', '--object', 'sphere:at=1.2,0,0', '-e', 'checker')) < 0.5, 'as the native program');
     const other = await show({ objects: 'sphere:at=-1.2,0,0,ior=1.2; sphere:at=1.2,0,0,ior=1.9' });
-    assert.ok(difference(part(first, 0, 120), part(other, 0, 120)) < 0.5, 'the left one is as before');
-    assert.ok(difference(part(first, 136, 256), part(other, 136, 256)) > 5, 'the right one is not');
+    assert.ok(difference(part(first, 0, 0.47 * side), part(other, 0, 0.47 * side)) < 0.5, 'the left one is as before');
+    assert.ok(difference(part(first, 0.53 * side, side), part(other, 0.53 * side, side)) > 5, 'the right one is not');
     assert.ok(difference(other, await show({ ior: 1.9 })) > 5, 'ior is for all');
     const plainer = await show({ ior: null, fresnel: 'off' });
     assert.ok(meanError(other, plainer) > 0.5, 'without Fresnel reflection');
@@ -523,7 +520,7 @@ describe('the element', { skip }, () => {
       Object.assign(a, { objects: 'sphere\nsphere:at=0,0,-3\nplane:at=0,0,-6', cameraOrbit: '0deg 90deg auto', cameraTarget: '0m 0m 0m' });
       await new Promise((done) => a.addEventListener('load', done, { once: true }));
       const { left, top } = a.getBoundingClientRect();
-      return a.pathAt(left + 129, top + 127);
+      return a.pathAt(left + 65, top + 63);
     });
     assert.deepEqual([path.events.length, path.points.length, path.exited], [4, 5, false]);
     assert.ok(Math.abs(path.points[4][2] + 6) < 1e-3);
@@ -546,10 +543,10 @@ describe('the element', { skip }, () => {
     }
     await show({ src: null, objects: 'cube' });
     await page.evaluate(() => Object.assign(a, { cameraIndex: 2 }));
-    await settle(page);
+    await quiet(page);
     assert.match(await message(page), /camera-index is 2, but the model has no camera/);
     await page.evaluate(() => Object.assign(a, { cameraIndex: null }));
-    await settle(page);
+    await quiet(page);
     assert.equal(await message(page), '');
   });
 
@@ -572,28 +569,28 @@ describe('the element', { skip }, () => {
     const first = await picture(page);
     assert.ok(reds(first) > 300, `${reds(first)} pixels are red`);
     await page.evaluate(() => (a.cameraIndex = 0));
-    await settle(page);
+    await quiet(page);
     const { theta, phi } = await page.evaluate(() => ({ ...a.getCameraOrbit() }));
     assert.ok(Math.abs(theta - Math.PI / 2) < 1e-3 && Math.abs(phi - Math.PI / 2) < 1e-3, 'the camera of the file');
     assert.ok(difference(first, await picture(page)) > 5);
     await page.evaluate(() => (a.cameraIndex = 1));
-    await settle(page);
+    await quiet(page);
     assert.match(await message(page), /camera-index is 1; the model has the cameras 0 to 0/);
     await page.evaluate(() => Object.assign(a, { cameraIndex: null, src: '/unreadable.glb' }));
     await page.waitForFunction(() => a.loaded);
-    await settle(page);
+    await quiet(page);
     assert.match(await message(page), /^unreadable\.glb: image 0 is no picture that this browser can decode; white is shown in its place$/);
     assert.equal(reds(await picture(page)), 0);
     await page.evaluate(() => (a.src = '/red.glb'));
     await page.waitForFunction(() => a.loaded);
-    await settle(page);
+    await quiet(page);
     assert.equal(await message(page), '');
     assert.equal(difference(first, await picture(page)), 0);
   });
 
   test('relief glass of patterns and pictures', async (t) => {
     requests.length = 0;
-    const page = await open(t, '<vitrine-viewer id="a" relief="hammered" relief-depth="0.06" src="/good.glb" skybox-image></vitrine-viewer><style>vitrine-viewer { width: 256px; height: 256px }</style>', { allowed: /404/ });
+    const page = await open(t, `<vitrine-viewer id="a" relief="hammered" relief-depth="0.06" src="/good.glb" skybox-image></vitrine-viewer>${ofSide}`, { allowed: /404/ });
     const show = (changes) => shown(page, changes);
     const draws = async (name, seen, ...args) => {
       const differing = difference(seen, nativePicture(...args));
@@ -608,16 +605,17 @@ describe('the element', { skip }, () => {
     const colours = new Set(new Uint32Array(Uint8Array.from(first.data).buffer));
     assert.ok(colours.size > 1000, `${colours.size} colours`);
 
-    const exact = meanError(first, await show({ technique: 'exact' }));
+    const coarse = await show({ relief: null, src: '', objects: 'hammered:relief=0.06,samples=96' }); // few triangles
+    const exact = meanError(coarse, await show({ technique: 'exact' }));
     t.diagnostic(`heightfield and exact: mean difference ${exact.toFixed(3)} of 255`);
     assert.ok(exact < 0.5);
-    assert.ok(meanError(first, await show({ technique: 'layered' })) < 20);
-    assert.equal(meanError(first, await show({ technique: null })), 0, 'and back');
+    assert.ok(meanError(coarse, await show({ technique: 'layered' })) < 20);
+    assert.equal(meanError(first, await show({ technique: null, relief: 'hammered', objects: '' })), 0, 'and back');
     assert.ok(difference(first, await show({ reliefDepth: 0.2 })) > 5, 'depth');
     assert.ok(difference(first, await show({ reliefDepth: 0.06, reliefSlab: 1 })) > 5, 'slab');
     const path = await page.evaluate(() => {
       const { left, top } = a.getBoundingClientRect();
-      return a.pathAt(left + 129, top + 127);
+      return a.pathAt(left + 65, top + 63);
     });
     assert.ok(path.events.length >= 2 && path.exited, 'a path goes through');
 
@@ -665,16 +663,16 @@ describe('the element', { skip }, () => {
       };
       a.technique = 'exact';
     });
-    await settle(page);
+    await quiet(page);
     assert.equal(await message(page), 'too many triangles, try 1');
     assert.equal(difference(first, await picture(page)), 0, 'the picture stays');
     await page.evaluate(() => a.shadowRoot.querySelector('.view').focus());
     await page.keyboard.press('ArrowLeft');
-    await settle(page);
+    await quiet(page);
     assert.ok(difference(first, await picture(page)) > 2, 'and turns');
     assert.equal(await page.evaluate(() => window.tries), 1);
     await page.evaluate(() => (a.technique = 'single'));
-    await settle(page);
+    await quiet(page);
     assert.equal(await message(page), '');
   });
 
@@ -683,7 +681,8 @@ describe('the element', { skip }, () => {
     await page.waitForFunction(() => window.events.some(({ totalProgress }) => totalProgress > 0.1));
     await page.evaluate(() => (a.src = 'torus'));
     await page.waitForFunction(() => a.loaded);
-    await pause(700);
+    openGate();
+    await quiet(page);
     assert.deepEqual((await events(page, 'load')).map(({ url }) => url), ['torus']);
     assert.deepEqual(await events(page, 'error'), []);
   });
@@ -743,7 +742,7 @@ describe('the element', { skip }, () => {
     });
     assert.ok(Math.abs((await orbit()).theta - Math.PI / 2) < 1e-6, 'a slider for screen readers');
     await page.evaluate(() => a.resetView());
-    await settle(page);
+    await quiet(page);
     assert.equal(difference(first, await picture(page)), 0, 'and back');
   });
 
@@ -757,12 +756,14 @@ describe('the element', { skip }, () => {
     await send('touchMove', [70, 82]);
     await send('touchMove', [100, 82]);
     await send('touchEnd');
+    await quiet(page);
     const turned = await orbit();
     assert.ok(turned.theta < start.theta - 0.3, 'one finger turns');
     await send('touchStart', [60, 80], [90, 80]);
     await send('touchMove', [40, 80], [110, 80]);
     await send('touchMove', [30, 80], [120, 80]);
     await send('touchEnd');
+    await quiet(page);
     assert.ok((await orbit()).radius < 0.6 * turned.radius, 'two fingers zoom');
     assert.equal((await orbit()).theta, turned.theta);
     assert.equal(await page.evaluate(() => getComputedStyle(a.shadowRoot.querySelector('.view')).touchAction), 'pan-y');
@@ -775,7 +776,7 @@ describe('the element', { skip }, () => {
     const old = await theta();
     await page.waitForFunction((before) => a.getCameraOrbit().theta > before + 0.05, old);
     await page.emulateMedia({ reducedMotion: 'reduce' });
-    await settle(page);
+    await quiet(page);
     const [rest, count] = [await theta(), await draws(page)];
     await pause(500);
     assert.deepEqual([await theta(), await draws(page)], [rest, count]);
@@ -785,55 +786,67 @@ describe('the element', { skip }, () => {
     requests.length = 0;
     const page = await open(t, '<vitrine-viewer id="a" src="torus" layers="2" steps="4" camera-controls></vitrine-viewer><div class="far"></div><vitrine-viewer id="b" src="/broken.glb"></vitrine-viewer><vitrine-viewer src="/good.glb" loading="eager"></vitrine-viewer>', { waits: false });
     await page.waitForFunction(() => a.loaded);
-    await settle(page);
+    await quiet(page);
     assert.deepEqual(requests.filter((path) => path.endsWith('.glb')), ['/good.glb'], 'only what is eager is fetched');
     const idle = await draws(page);
     await pause(1000);
     assert.equal(await draws(page), idle, 'idle');
     assert.equal(await page.evaluate(() => window.counts.contexts.length), 1, 'the others have no context yet');
     await page.evaluate(() => scrollTo(0, 600));
-    await pause(100);
+    await quiet(page);
     await page.evaluate(() => (a.autoRotate = true));
     await pause(500);
     assert.equal(await draws(page), idle, 'off screen');
     await page.evaluate(() => scrollTo(0, 0));
     await page.waitForFunction((count) => window.counts.draws > count, idle);
     await page.evaluate(() => (a.hidden = true));
-    await pause(150);
+    await quiet(page);
     const hidden = await draws(page);
     await pause(500);
     assert.equal(await draws(page), hidden, 'hidden');
   });
 
-  // Less of each setting too, where the resolution alone is not enough; what is peeled once stays as it is.
-  for (const [technique, full, least] of [['exact', [8, 100, 8], [8, 64, 4]], ['layered', [4, 100, 8], [2, 25, 4]]]) {
+  // Less of each setting too, where the resolution alone is not enough. Frames in motion last 40 ms here whatever the
+  // machine does.
+  const init = () => {
+    const { fenceSync, getSyncParameter } = WebGL2RenderingContext.prototype;
+    const born = new WeakMap();
+    WebGL2RenderingContext.prototype.fenceSync = function (...values) {
+      const fence = fenceSync.apply(this, values);
+      if (fence) born.set(fence, performance.now());
+      return fence;
+    };
+    WebGL2RenderingContext.prototype.getSyncParameter = function (fence, name) {
+      const isYoung = window.a?.autoRotate && performance.now() - born.get(fence) < 40;
+      return isYoung && name === this.SYNC_STATUS ? this.UNSIGNALED : getSyncParameter.call(this, fence, name);
+    };
+  };
+  for (const [technique, full, least] of [['exact', [4, 100, 8], [2, 25, 4]], ['layered', [4, 100, 8], [2, 25, 4]]]) {
     test(`quality="auto" holds the frame time and ends with a full frame: ${technique}`, async (t) => {
-      const page = await open(t, `<vitrine-viewer id="a" src="knot" camera-controls technique="${technique}" steps="100"></vitrine-viewer><style>vitrine-viewer { width: 220px; height: 220px }</style>`, { deviceScaleFactor: 3, waits: false });
-      await page.waitForFunction(() => a.loaded);
-      await settle(page);
+      const page = await open(t, `<vitrine-viewer id="a" src="knot" camera-controls technique="${technique}" steps="100"></vitrine-viewer><style>vitrine-viewer { width: 100px; height: 100px }</style>`, { deviceScaleFactor: 3, init });
       const settings = ({ layers, steps, maxEvents }) => [layers, steps, maxEvents];
       const first = (await events(page, 'render-scale'))[0];
-      assert.deepEqual([first.reportedDpr, first.renderedDpr, first.pixelWidth, first.preset, first.reason], [3, 2, 440, 'medium', 'still']);
+      assert.deepEqual([first.reportedDpr, first.renderedDpr, first.pixelWidth, first.preset, first.reason], [3, 2, 200, 'medium', 'still']);
       assert.deepEqual(settings(first), full);
       const shown = await picture(page);
       await page.evaluate(() => (a.autoRotate = true));
-      await page.waitForFunction(() => window.events.filter(({ event }) => event === 'render-scale').length > 2);
-      await pause(700);
+      await page.waitForFunction(() => window.events.some(({ pixelWidth }) => pixelWidth === 50));
       await page.screenshot({ path: join(screenshots, `element-moving-${technique}.png`) });
       await page.evaluate(() => (a.autoRotate = false));
-      await page.waitForFunction(() => window.events.findLast(({ event }) => event === 'render-scale').reason === 'still');
-      await settle(page);
+      await quiet(page);
       const scales = await events(page, 'render-scale');
       t.diagnostic(scales.map((one) => `${one.pixelWidth} px, ${one.preset}: ${settings(one)} (${one.reason})`).join('; '));
-      assert.ok(scales.some(({ reason, pixelWidth }) => reason === 'frame-time' && pixelWidth < 300));
+      assert.ok(scales.slice(1, -1).every(({ reason }) => reason === 'frame-time'));
       for (const one of scales) assert.deepEqual(settings(one), one.preset === 'low' ? least : full);
-      assert.deepEqual([scales.at(-1).pixelWidth, scales.at(-1).preset], [440, 'medium']);
+      assert.ok(scales.some(({ preset }) => preset === 'low'));
+      const { pixelWidth, preset, reason } = scales.at(-1);
+      assert.deepEqual([pixelWidth, preset, reason], [200, 'medium', 'still']);
       await page.evaluate(() => a.resetView());
-      await settle(page);
+      await quiet(page);
       assert.equal(difference(shown, await picture(page)), 0);
       await page.evaluate(() => (a.quality = 'low'));
-      await settle(page);
-      assert.equal((await events(page, 'render-scale')).at(-1).pixelWidth, 220);
+      await quiet(page);
+      assert.equal((await events(page, 'render-scale')).at(-1).pixelWidth, 100);
     });
   }
 
@@ -841,15 +854,15 @@ describe('the element', { skip }, () => {
     const page = await open(t, '<vitrine-viewer id="a" src="sphere" quality="high"></vitrine-viewer>');
     const shown = async (change) => {
       await page.evaluate((values) => Object.assign(a, values), change);
-      await settle(page);
+      await quiet(page);
       const { preset, layers, steps, maxEvents } = (await events(page, 'render-scale')).at(-1);
       return [preset, layers, steps, maxEvents];
     };
-    assert.deepEqual(await shown({}), ['medium', 8, 256, 8]);
-    assert.deepEqual(await shown({ preset: 'low' }), ['low', 4, 64, 4]);
-    assert.deepEqual(await shown({ preset: 'high', maxEvents: 5 }), ['high', 8, 512, 5]);
+    assert.deepEqual(await shown({}), ['medium', 4, 50, 8]);
+    assert.deepEqual(await shown({ preset: 'low' }), ['low', 2, 25, 4]);
+    assert.deepEqual(await shown({ preset: 'high', maxEvents: 5 }), ['high', 8, 100, 5]);
     assert.deepEqual(await shown({ technique: 'layered', layers: 3 }), ['high', 3, 100, 5]);
-    assert.deepEqual(await shown({ technique: null, preset: null, layers: null, maxEvents: null }), ['medium', 8, 256, 8]);
+    assert.deepEqual(await shown({ technique: null, preset: null, layers: null, maxEvents: null }), ['medium', 4, 50, 8]);
   });
 
   test('a lost context comes back with its scene', async (t) => {
@@ -857,7 +870,7 @@ describe('the element', { skip }, () => {
     await page.focus('#a');
     await page.evaluate(() => a.shadowRoot.querySelector('.view').focus());
     await page.keyboard.press('ArrowLeft');
-    await settle(page);
+    await quiet(page);
     await page.evaluate(() => document.activeElement.blur());
     const first = await shot(page);
     requests.length = 0;
@@ -871,7 +884,7 @@ describe('the element', { skip }, () => {
     await page.evaluate(() => a.removeAttribute('ior'));
     await page.evaluate(() => window.loss.restoreContext());
     await page.waitForFunction(() => a.shadowRoot.querySelector('[part=message]').hidden);
-    await settle(page);
+    await quiet(page);
     assert.equal(difference(first, await shot(page)), 0);
     assert.deepEqual(requests, [], 'from the bytes that were kept');
 
@@ -879,10 +892,10 @@ describe('the element', { skip }, () => {
     await page.evaluate(() => window.counts.contexts.at(-1).deref().getExtension('WEBGL_lose_context').loseContext());
     await page.waitForFunction(() => !a.shadowRoot.querySelector('[part=message]').hidden);
     await page.evaluate(() => scrollTo(0, 1000));
-    await pause(100);
+    await quiet(page);
     await page.evaluate(() => scrollTo(0, 0));
     await page.waitForFunction(() => a.shadowRoot.querySelector('[part=message]').hidden);
-    await settle(page);
+    await quiet(page);
     assert.equal(difference(first, await shot(page)), 0);
   });
 

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { chromiumPath, launch, serve } from './browser-tools.mjs';
+import { chromiumPath, launch, openPage, quiet, serve } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = resolve(here, '..');
@@ -45,15 +45,15 @@ describe('the package', { skip: missing }, () => {
 
   async function coloursAt(address) {
     const { PNG } = await import('pngjs');
-    const page = await browser.newPage({ viewport: { width: 320, height: 240 } });
+    const page = await openPage(browser, { viewport: { width: 320, height: 240 } });
     const problems = [];
     page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
     page.on('pageerror', (error) => problems.push(error.message));
     await page.goto(address);
-    await page.waitForFunction(() => document.querySelector('vitrine-viewer')?.loaded, null, { timeout: 60000 });
-    await page.waitForTimeout(1500);
+    await page.waitForFunction(() => document.querySelector('vitrine-viewer')?.loaded);
+    await quiet(page);
     const picture = PNG.sync.read(await page.screenshot());
-    await page.close();
+    await page.context().close();
     assert.deepEqual(problems, []);
     return new Set(new Uint32Array(picture.data.buffer, picture.data.byteOffset, picture.data.length / 4)).size;
   }

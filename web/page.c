@@ -50,7 +50,7 @@ EMSCRIPTEN_KEEPALIVE int vtPage_Tick(vtPage* page)
 {
     page->viewer->changed |= vtWindow_Poll(page->window, &page->viewer->frame.view);
     int drawn = vtViewer_Tick(page->viewer);
-    if (drawn > 0) {
+    if (drawn == 1) {
         vtWindow_Present(page->window);
     }
     return drawn;

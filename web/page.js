@@ -59,7 +59,8 @@ function showState() {
   const analysis = now.output === outputAnalysis;
   element('analysis').checked = analysis;
   element('legend').hidden = !analysis;
-  const parts = [`${now.triangles.toLocaleString('en')} triangles`, `layers ${now.layerWidth} × ${now.layerHeight}`];
+  const parts = [`${now.triangles.toLocaleString('en')} triangles`];
+  if (now.layerWidth > 0) parts.push(`layers ${now.layerWidth} × ${now.layerHeight}`);
   if (milliseconds > 0) {
     parts.push(`${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms per frame`);
   }
@@ -222,7 +223,7 @@ function onFrame() {
   const start = performance.now();
   const drawn = core._vtPage_Tick(page);
   if (drawn < 0) showError(core.UTF8ToString(call('Error')));
-  if (drawn <= 0) return;
+  if (drawn !== 1) return;
   drawing = true;
   const gl = canvas.getContext('webgl2');
   const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);

@@ -35,7 +35,7 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Destroy(vtViewer* viewer)
     if (viewer != NULL) {
         vtDestroyRenderer(viewer->renderer);
         vtDestroyScene(&viewer->scene);
-        vtDestroyScene(&viewer->next);
+        vtViewer_Begin(viewer);
         vtDestroyMesh(&viewer->kept.unit);
         free(viewer->image);
         free(viewer);
@@ -103,8 +103,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/// No more work a pixel than preset low asks for. What is peeled once for a mesh stays: peeling it anew
-/// whenever motion starts and ends would cost more than it saves.
+/// No more work a pixel than preset low asks for.
 static void lessen(vtFrame* frame)
 {
     const vtFrame full = vtResolveFrame(frame);
@@ -112,9 +111,11 @@ static void lessen(vtFrame* frame)
     low.preset = vt_presetLow;
     low.layers = low.steps = low.maxEvents = 0;
     low = vtResolveFrame(&low);
-    frame->layers = vtFrame_LayerCount(&full) > 0 ? least(full.layers, low.layers) : full.layers;
+    frame->layers = least(full.layers, low.layers);
     frame->steps = least(full.steps, low.steps);
     frame->maxEvents = least(full.maxEvents, low.maxEvents);
+    const int branches = least(vtFrame_BranchCount(&full), vtFrame_BranchCount(&low));
+    frame->branches = branches > 0 ? branches : -1;
 }
 
 /// Technique by its id, empty: the scene decides, and the settings of the glass, ranges as in vtFrame, 0
@@ -138,6 +139,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char*
     frame.steps = steps;
     frame.maxEvents = maxEvents;
     frame.output = (vtOutput)output;
+    frame.branches = 0;
     frame.layer = 0;
     frame.exposure = exposure;
     frame.transparentBackground = transparent;
@@ -193,14 +195,20 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Resize(vtViewer* viewer, int width, in
 EMSCRIPTEN_KEEPALIVE int vtViewer_Tick(vtViewer* viewer)
 {
     vtFrame frame = viewer->frame;
-    if (viewer->changed) {
-        viewer->sample = 0;
-    } else if (viewer->sample >= (frame.output == vt_outputPicture ? frame.samples : 1)) {
+    const int sample = viewer->changed ? 0 : viewer->sample;
+    if (sample >= (frame.output == vt_outputPicture ? frame.samples : 1)) {
         return 0;
     }
-    viewer->changed = false;
-    frame.firstSample = viewer->sample++;
+    frame.firstSample = sample;
     frame.samples = 1;
+    bool ready = true;
+    // Of the programs, the second sample has the last that are new.
+    if (sample < 2 && vtRenderer_Prepare(viewer->renderer, &frame, &ready, &viewer->error) == vt_ok &&
+        !ready) {
+        return 2;
+    }
+    viewer->changed = false;
+    viewer->sample = sample + 1;
     if (vtRenderer_Draw(viewer->renderer, &frame, &viewer->error) != vt_ok) {
         viewer->sample = VT_MAX_SAMPLES;
         return -1;
@@ -277,7 +285,6 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Info(vtViewer* viewer)
     const vtFrame frame = vtResolveFrame(&viewer->frame);
     const vtView* view = &frame.view;
     const vtRendererInfo info = vtRenderer_Info(viewer->renderer);
-    const bool peels = vtFrame_LayerCount(&frame) > 0;
     const vtSceneFacts facts = vtViewer_SceneFacts(viewer);
     snprintf(
         viewer->info, sizeof viewer->info,
@@ -286,10 +293,10 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Info(vtViewer* viewer)
         "\"technique\":\"%s\",\"preset\":\"%s\",\"ior\":%.6g,\"layers\":%d,\"steps\":%d,\"maxEvents\":%d,"
         "\"output\":%d,\"eye\":[%.6g,%.6g,%.6g],\"target\":[%.6g,%.6g,%.6g],\"fov\":%.6g}",
         facts.triangles, facts.openEdges, viewer->scene.objectCount, facts.glassCount,
-        viewer->scene.cameraCount, viewer->scene.imageCount, peels ? info.layerWidth : frame.cubeSize,
-        peels ? info.layerHeight : frame.cubeSize, viewer->drawCount, vtTechnique_Info(frame.technique)->id,
-        vtPresetName((int)frame.preset), (double)facts.ior, frame.layers, frame.steps, frame.maxEvents,
-        (int)frame.output, (double)view->eye.x, (double)view->eye.y, (double)view->eye.z,
-        (double)view->target.x, (double)view->target.y, (double)view->target.z, (double)view->fovY);
+        viewer->scene.cameraCount, viewer->scene.imageCount, info.layerWidth, info.layerHeight,
+        viewer->drawCount, vtTechnique_Info(frame.technique)->id, vtPresetName((int)frame.preset),
+        (double)facts.ior, frame.layers, frame.steps, frame.maxEvents, (int)frame.output, (double)view->eye.x,
+        (double)view->eye.y, (double)view->eye.z, (double)view->target.x, (double)view->target.y,
+        (double)view->target.z, (double)view->fovY);
     return viewer->info;
 }

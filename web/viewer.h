@@ -14,8 +14,9 @@ typedef struct vtKeptRelief {
 
 typedef struct vtViewer {
     vtRenderer* renderer;
-    vtScene scene; ///< on the GPU as well; kept for its numbers
-    vtScene next;  ///< being put together
+    vtScene scene;              ///< on the GPU as well; kept for its numbers
+    vtScene next;               ///< being put together
+    vtPreparation* preparation; ///< of that; NULL: not begun
     vtKeptRelief kept;
     vtFrame frame; ///< of the canvas; each tick draws one of its samples
     int sample;    ///< the next one
@@ -27,12 +28,14 @@ typedef struct vtViewer {
     char path[192 + 128 * VT_MAX_EVENTS]; ///< the last one of vtViewer_Path
 } vtViewer;
 
-/// Compiles the shaders in the current context; NULL where memory is out. See vtViewer_Error.
+/// In the current context; NULL where memory is out. See vtViewer_Error.
 vtViewer* vtViewer_Create(int width, int height);
 void vtViewer_Destroy(vtViewer* viewer);
+/// Begins a scene; what was begun before is dropped.
+void vtViewer_Begin(vtViewer* viewer);
 
 /// Draws the canvas if anything changed, else adds the next sample until all are there. 1: drawn, 0: nothing
-/// to do, -1: failed, see vtViewer_Error.
+/// to do, 2: shaders are not compiled yet, ask again, -1: failed, see vtViewer_Error.
 int vtViewer_Tick(vtViewer* viewer);
 
 /// Gives the scene what a technique needs; where that cannot be had, all stays on the GPU as it was.

@@ -17,8 +17,17 @@ static const char* sentence(const vtViewer* viewer, vtResult result)
 }
 
 /// Begins a scene; nothing of it is seen before vtViewer_Show.
+static void endPreparation(vtViewer* viewer)
+{
+    if (viewer->preparation != NULL) {
+        vtEndPreparation(viewer->preparation, NULL);
+        viewer->preparation = NULL;
+    }
+}
+
 EMSCRIPTEN_KEEPALIVE void vtViewer_Begin(vtViewer* viewer)
 {
+    endPreparation(viewer);
     vtDestroyScene(&viewer->next);
 }
 
@@ -116,10 +125,28 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_SetImage(vtViewer* viewer, int index, uint8_t
     image->height = height;
 }
 
+/// Builds what the scene that was begun is searched by, about so much of it (vtPreparation_Step). 1 once it
+/// is whole, or cannot be: then vtViewer_Show tells why.
+EMSCRIPTEN_KEEPALIVE int vtViewer_Build(vtViewer* viewer, int work)
+{
+    if (vtScene_HasRelief(&viewer->next)) {
+        return 1; // it is searched by its heights
+    }
+    if (viewer->preparation == NULL) {
+        viewer->preparation = vtBeginPreparation(&viewer->next);
+    }
+    if (viewer->preparation != NULL && !vtPreparation_Step(viewer->preparation, (uint32_t)work)) {
+        return 0;
+    }
+    endPreparation(viewer);
+    return 1;
+}
+
 /// Shows the scene that was begun; where it cannot be uploaded, the one before stays. A relief is shown by
 /// its heights, so that no triangles are made before a technique asks for them.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Show(vtViewer* viewer)
 {
+    endPreparation(viewer);
     const vtTechnique technique =
         vtScene_HasRelief(&viewer->next) ? vt_techniqueHeightField : viewer->frame.technique;
     vtResult result = vtPrepareScene(&viewer->next, technique, NULL, &viewer->error);

@@ -15,6 +15,18 @@ static bool isNewEnough(const char* version)
     return embedded != NULL ? major >= 3 : major * 10 + minor >= 33;
 }
 
+static bool hasExtension(const vtGL* gl, const char* name)
+{
+    GLint count = 0;
+    bool found = false;
+    gl->GetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint i = 0; i < count && !found; ++i) {
+        const char* extension = (const char*)gl->GetStringi(GL_EXTENSIONS, (GLuint)i);
+        found = extension != NULL && strcmp(extension, name) == 0;
+    }
+    return found;
+}
+
 vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
 {
     *gl = (vtGL){0};
@@ -47,6 +59,7 @@ vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
         return vtFail(error, vt_errorContext,
                       "GL: the context is '%s'; OpenGL ES 3.0, WebGL 2 or desktop GL 3.3 is needed", version);
     }
+    gl->parallelCompile = hasExtension(gl, "GL_KHR_parallel_shader_compile");
     return vtSucceed(error);
 }
 
@@ -79,4 +92,15 @@ vtResult vtCheckGL(const vtGL* gl, const char* doing, vtError* error)
     }
     vtResult result = first == GL_OUT_OF_MEMORY ? vt_errorMemory : vt_errorContext;
     return vtFail(error, result, "GL: %s while %s", errorName(first), doing);
+}
+
+vtResult vtCheckFrame(const vtGL* gl, const char* doing, vtError* error)
+{
+#ifdef __EMSCRIPTEN__
+    (void)gl;
+    (void)doing;
+    return vtSucceed(error);
+#else
+    return vtCheckGL(gl, doing, error);
+#endif
 }

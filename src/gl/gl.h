@@ -57,6 +57,7 @@
     X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                           \
     X(PFNGLGETSHADERIVPROC, GetShaderiv)                                                                     \
     X(PFNGLGETSTRINGPROC, GetString)                                                                         \
+    X(PFNGLGETSTRINGIPROC, GetStringi)                                                                       \
     X(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex)                                                   \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                       \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                     \
@@ -81,11 +82,16 @@ typedef struct vtGL {
 #define VT_GL_MEMBER(type, name) type name;
     VT_GL_FUNCTIONS(VT_GL_MEMBER)
 #undef VT_GL_MEMBER
+    bool parallelCompile; ///< KHR_parallel_shader_compile: the driver tells when a program is ready
 } vtGL;
 
 /// Fills the table. Fails with vt_errorContext, naming the first function that is missing or saying that
 /// the context is too old.
 vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error);
+
+/// As vtCheckGL, but vt_ok unasked in a browser, where a query waits for all that the GPU has still to do,
+/// shaders to compile included. For what is done in a frame.
+vtResult vtCheckFrame(const vtGL* gl, const char* doing, vtError* error);
 
 /// vt_ok where GL reports no error since the last call; `doing` says what was being done.
 vtResult vtCheckGL(const vtGL* gl, const char* doing, vtError* error);

@@ -1,15 +1,45 @@
 #include "gl/mesh_buffer.h"
 
+#include <stdlib.h>
+
 #include "base/error.h"
 
-vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, uint32_t firstTriangle,
+/// Into the buffer that is bound: positions from the origin, then normals. False where memory is out.
+static bool uploadVertices(const vtGL* gl, const vtMesh* mesh, vtVec3 origin)
+{
+    const size_t bytes = 3 * sizeof(float) * (size_t)mesh->vertexCount;
+    float* positions = malloc(bytes);
+    if (positions == NULL) {
+        return false;
+    }
+    const float from[3] = {origin.x, origin.y, origin.z};
+    for (size_t i = 0; i < 3 * (size_t)mesh->vertexCount; ++i) {
+        positions[i] = mesh->positions[i] - from[i % 3];
+    }
+    gl->BufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)bytes, positions);
+    gl->BufferSubData(GL_ARRAY_BUFFER, (GLintptr)bytes, (GLsizeiptr)bytes, mesh->normals);
+    free(positions);
+    return true;
+}
+
+bool vtMeshBuffer_Update(const vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtVec3 origin)
+{
+    if (buffer->vertexCount != mesh->vertexCount ||
+        (buffer->distances == 0) != (mesh->innerDistances == NULL)) {
+        return false;
+    }
+    gl->BindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
+    return uploadVertices(gl, mesh, origin);
+}
+
+vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtVec3 origin,
                              vtError* error)
 {
     size_t attributeBytes = 3 * sizeof(float) * (size_t)mesh->vertexCount;
     size_t indexBytes = sizeof(uint32_t) * (size_t)mesh->indexCount;
     *buffer = (vtMeshBuffer){0};
     buffer->indexCount = (GLsizei)mesh->indexCount;
-    buffer->firstTriangle = firstTriangle;
+    buffer->vertexCount = mesh->vertexCount;
     buffer->bytes = 2 * attributeBytes + indexBytes;
 
     gl->GenVertexArrays(1, &buffer->vertexArray);
@@ -17,8 +47,7 @@ vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh*
     gl->GenBuffers(1, &buffer->vertices);
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * attributeBytes), NULL, GL_STATIC_DRAW);
-    gl->BufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)attributeBytes, mesh->positions);
-    gl->BufferSubData(GL_ARRAY_BUFFER, (GLintptr)attributeBytes, (GLsizeiptr)attributeBytes, mesh->normals);
+    const bool uploaded = uploadVertices(gl, mesh, origin);
     gl->EnableVertexAttribArray(0);
     gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, (const void*)0);
     gl->EnableVertexAttribArray(1);
@@ -37,7 +66,9 @@ vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh*
     gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)indexBytes, mesh->indices, GL_STATIC_DRAW);
     gl->BindVertexArray(0);
 
-    vtResult result = vtCheckGL(gl, "uploading the mesh", error);
+    vtResult result =
+        uploaded ? vtCheckGL(gl, "uploading the mesh", error)
+                 : vtFail(error, vt_errorMemory, "mesh: out of memory for %u vertices", mesh->vertexCount);
     if (result != vt_ok) {
         vtMeshBuffer_Destroy(buffer, gl);
     }

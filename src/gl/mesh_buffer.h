@@ -7,11 +7,15 @@
 typedef struct vtMeshBuffer {
     GLuint vertexArray, vertices, distances, indices;
     GLsizei indexCount;
-    uint32_t firstTriangle; ///< among the triangle records of all meshes
+    uint32_t vertexCount;
     size_t bytes;
 } vtMeshBuffer;
 
-vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, uint32_t firstTriangle,
+/// `origin`: of the positions on the GPU, in the mesh's coordinates.
+vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtVec3 origin,
                              vtError* error);
+/// New positions and normals; false where there are not as many, or inner distances would be of the old ones,
+/// or memory is out.
+bool vtMeshBuffer_Update(const vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtVec3 origin);
 void vtMeshBuffer_Draw(const vtMeshBuffer* buffer, const vtGL* gl);
 void vtMeshBuffer_Destroy(vtMeshBuffer* buffer, const vtGL* gl);

@@ -27,6 +27,19 @@ static int countLines(const char* text)
     return lines;
 }
 
+/// Those that stand before every source, and the program's own.
+static int collectChunks(const vtChunk* const* chunks, const vtChunk** all)
+{
+    int count = 0;
+    all[count++] = &header;
+    all[count++] = &vtChunk_constants;
+    all[count++] = &vtChunk_frame;
+    for (int i = 0; i < VT_MAX_CHUNKS && chunks[i] != NULL; ++i) {
+        all[count++] = chunks[i];
+    }
+    return count;
+}
+
 /// "peel.frag: lines 1-7 header, 8-30 constants, ..." so that a driver's line number can be found.
 static void describeChunks(const vtChunk* const* chunks, int count, char* text, size_t size)
 {
@@ -54,75 +67,140 @@ static void makeOneLine(char* text)
     }
 }
 
-static vtResult compile(const vtGL* gl, GLenum stage, const char* name, const vtChunk* const* chunks,
-                        GLuint* shader, vtError* error)
+static GLuint compile(const vtGL* gl, GLenum stage, const vtChunk* const* chunks)
 {
-    const vtChunk* all[VT_MAX_CHUNKS + 3] = {&header, &vtChunk_constants, &vtChunk_frame};
-    int count = 3;
-    for (int i = 0; i < VT_MAX_CHUNKS && chunks[i] != NULL; ++i) {
-        all[count++] = chunks[i];
-    }
+    const vtChunk* all[VT_MAX_CHUNKS + 3];
     const char* sources[VT_MAX_CHUNKS + 3];
+    const int count = collectChunks(chunks, all);
     for (int i = 0; i < count; ++i) {
         sources[i] = all[i]->source;
     }
+    const GLuint shader = gl->CreateShader(stage);
+    gl->ShaderSource(shader, count, sources, NULL);
+    gl->CompileShader(shader);
+    return shader;
+}
 
-    *shader = gl->CreateShader(stage);
-    gl->ShaderSource(*shader, count, sources, NULL);
-    gl->CompileShader(*shader);
+static vtResult checkShader(const vtGL* gl, GLuint shader, const char* stage, const char* name,
+                            const vtChunk* const* chunks, vtError* error)
+{
     GLint compiled = 0;
-    gl->GetShaderiv(*shader, GL_COMPILE_STATUS, &compiled);
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (compiled) {
         return vt_ok;
     }
     char log[256] = "", where[480];
-    gl->GetShaderInfoLog(*shader, sizeof log, NULL, log);
+    const vtChunk* all[VT_MAX_CHUNKS + 3];
+    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
     makeOneLine(log);
-    describeChunks(all, count, where, sizeof where);
-    gl->DeleteShader(*shader);
-    *shader = 0;
-    return vtFail(error, vt_errorContext, "GL: the %s shader of '%s' does not compile: %s (lines: %s)",
-                  stage == GL_VERTEX_SHADER ? "vertex" : "fragment", name, log, where);
+    describeChunks(all, collectChunks(chunks, all), where, sizeof where);
+    return vtFail(error, vt_errorContext, "GL: the %s shader of '%s' does not compile: %s (lines: %s)", stage,
+                  name, log, where);
 }
 
-vtResult vtCreateProgram(const vtGL* gl, const vtProgramDef* def, GLuint* program, vtError* error)
+void vtProgram_Start(vtProgram* program, const vtGL* gl, const vtProgramDef* def)
 {
-    *program = 0;
-    GLuint vertex = 0, fragment = 0;
-    vtResult result = compile(gl, GL_VERTEX_SHADER, def->name, def->vertex, &vertex, error);
-    if (result != vt_ok) {
-        return result;
+    if (program->name != 0) {
+        return;
     }
-    result = compile(gl, GL_FRAGMENT_SHADER, def->name, def->fragment, &fragment, error);
-    if (result != vt_ok) {
-        gl->DeleteShader(vertex);
-        return result;
-    }
+    *program = (vtProgram){.def = *def, .name = gl->CreateProgram()};
+    program->vertex = compile(gl, GL_VERTEX_SHADER, def->vertex);
+    program->fragment = compile(gl, GL_FRAGMENT_SHADER, def->fragment);
+    gl->AttachShader(program->name, program->vertex);
+    gl->AttachShader(program->name, program->fragment);
+    gl->LinkProgram(program->name);
+}
 
-    GLuint linked = gl->CreateProgram();
-    gl->AttachShader(linked, vertex);
-    gl->AttachShader(linked, fragment);
-    gl->LinkProgram(linked);
-    gl->DeleteShader(vertex);
-    gl->DeleteShader(fragment);
-    GLint status = 0;
-    gl->GetProgramiv(linked, GL_LINK_STATUS, &status);
-    if (!status) {
+bool vtProgram_IsReady(const vtProgram* program, const vtGL* gl)
+{
+    GLint complete = 1;
+    if (gl->parallelCompile && !program->finished) {
+        gl->GetProgramiv(program->name, 0x91B1, &complete); // GL_COMPLETION_STATUS_KHR
+    }
+    return complete != 0;
+}
+
+static vtResult checkProgram(const vtProgram* program, const vtGL* gl, vtError* error)
+{
+    const vtProgramDef* def = &program->def;
+    GLint linked = 0;
+    gl->GetProgramiv(program->name, GL_LINK_STATUS, &linked);
+    if (linked) {
+        return vt_ok;
+    }
+    vtResult result = checkShader(gl, program->vertex, "vertex", def->name, def->vertex, error);
+    if (result == vt_ok) {
+        result = checkShader(gl, program->fragment, "fragment", def->name, def->fragment, error);
+    }
+    if (result == vt_ok) {
         char log[256] = "";
-        gl->GetProgramInfoLog(linked, sizeof log, NULL, log);
+        gl->GetProgramInfoLog(program->name, sizeof log, NULL, log);
         makeOneLine(log);
-        gl->DeleteProgram(linked);
-        return vtFail(error, vt_errorContext, "GL: program '%s' does not link: %s", def->name, log);
+        result = vtFail(error, vt_errorContext, "GL: program '%s' does not link: %s", def->name, log);
     }
+    return result;
+}
 
-    GLuint block = gl->GetUniformBlockIndex(linked, "Frame");
+vtResult vtProgram_Finish(vtProgram* program, const vtGL* gl, vtError* error)
+{
+    if (program->finished) {
+        return vtSucceed(error);
+    }
+    const vtProgramDef* def = &program->def;
+    const vtResult result = checkProgram(program, gl, error);
+    gl->DeleteShader(program->vertex);
+    gl->DeleteShader(program->fragment);
+    program->vertex = program->fragment = 0;
+    if (result != vt_ok) {
+        vtProgram_Destroy(program, gl);
+        return result;
+    }
+    program->finished = true;
+    const GLuint block = gl->GetUniformBlockIndex(program->name, "Frame");
     if (block != GL_INVALID_INDEX) {
-        gl->UniformBlockBinding(linked, block, VT_FRAME_BINDING);
+        gl->UniformBlockBinding(program->name, block, VT_FRAME_BINDING);
     }
-    gl->UseProgram(linked);
+    gl->UseProgram(program->name);
     for (int unit = 0; unit < VT_MAX_SAMPLERS && def->samplers[unit] != NULL; ++unit) {
-        gl->Uniform1i(gl->GetUniformLocation(linked, def->samplers[unit]), unit);
+        gl->Uniform1i(gl->GetUniformLocation(program->name, def->samplers[unit]), unit);
     }
-    *program = linked;
+    for (int i = 0; i < VT_MAX_UNIFORMS && def->uniforms[i] != NULL; ++i) {
+        program->uniforms[i] = gl->GetUniformLocation(program->name, def->uniforms[i]);
+    }
     return vtSucceed(error);
+}
+
+void vtProgram_Destroy(vtProgram* program, const vtGL* gl)
+{
+    if (program->name != 0) {
+        gl->DeleteShader(program->vertex); // 0 is passed over
+        gl->DeleteShader(program->fragment);
+        gl->DeleteProgram(program->name);
+    }
+    *program = (vtProgram){0};
+}
+
+void vtProgramList_Start(vtProgramList* list, vtProgram* program, const vtGL* gl, const vtProgramDef* def)
+{
+    assert(list->count < (int)(sizeof list->programs / sizeof list->programs[0]));
+    vtProgram_Start(program, gl, def);
+    list->programs[list->count++] = program;
+}
+
+bool vtProgramList_IsReady(const vtProgramList* list, const vtGL* gl)
+{
+    bool ready = true;
+    for (int i = 0; i < list->count; ++i) {
+        ready = ready && vtProgram_IsReady(list->programs[i], gl);
+    }
+    return ready;
+}
+
+vtResult vtProgramList_Finish(const vtProgramList* list, const vtGL* gl, vtError* error)
+{
+    vtResult result = vtSucceed(error);
+    for (int i = 0; i < list->count && result == vt_ok; ++i) {
+        result = vtProgram_Finish(list->programs[i], gl, error);
+    }
+    return result;
 }

@@ -10,6 +10,7 @@ typedef struct vtChunk {
 
 #define VT_MAX_CHUNKS 24
 #define VT_MAX_SAMPLERS 16
+#define VT_MAX_UNIFORMS 4
 
 /// What a program is made of: its chunks in order, after {version, precision, constants, frame}.
 typedef struct vtProgramDef {
@@ -17,8 +18,35 @@ typedef struct vtProgramDef {
     const vtChunk* vertex[VT_MAX_CHUNKS];   ///< NULL-terminated
     const vtChunk* fragment[VT_MAX_CHUNKS]; ///< NULL-terminated
     const char* samplers[VT_MAX_SAMPLERS];  ///< NULL-terminated; sampler i reads texture unit i
+    const char* uniforms[VT_MAX_UNIFORMS];  ///< NULL-terminated; what vtProgram.uniforms holds
 } vtProgramDef;
 
-/// Compiles and links. On failure the sentence holds the driver's first lines; with `verbose` builds the
-/// chunk names tell where its line numbers lie.
-vtResult vtCreateProgram(const vtGL* gl, const vtProgramDef* def, GLuint* program, vtError* error);
+/// A program in two steps, so that a driver can work at several at once, and the caller at something else:
+/// started, nothing of it is asked for; finished, it can be used.
+typedef struct vtProgram {
+    GLuint name;
+    GLuint vertex, fragment; ///< until it is finished
+    vtProgramDef def;
+    bool finished;
+    GLint uniforms[VT_MAX_UNIFORMS]; ///< places of def.uniforms
+} vtProgram;
+
+/// Hands the sources to the driver. Does nothing where that was done before.
+void vtProgram_Start(vtProgram* program, const vtGL* gl, const vtProgramDef* def);
+/// Can a started program be finished without waiting? True where the driver cannot tell
+/// (KHR_parallel_shader_compile).
+bool vtProgram_IsReady(const vtProgram* program, const vtGL* gl);
+/// Waits for the driver. Does nothing the second time. On failure the sentence holds the driver's first
+/// lines and where the chunks' lines lie, and the program is destroyed.
+vtResult vtProgram_Finish(vtProgram* program, const vtGL* gl, vtError* error);
+/// The programs of a frame: all are started before the first is waited for.
+typedef struct vtProgramList {
+    vtProgram* programs[8];
+    int count;
+} vtProgramList;
+void vtProgramList_Start(vtProgramList* list, vtProgram* program, const vtGL* gl, const vtProgramDef* def);
+bool vtProgramList_IsReady(const vtProgramList* list, const vtGL* gl);
+vtResult vtProgramList_Finish(const vtProgramList* list, const vtGL* gl, vtError* error);
+
+/// Safe on a zeroed program; zeroes it.
+void vtProgram_Destroy(vtProgram* program, const vtGL* gl);

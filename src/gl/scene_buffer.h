@@ -1,16 +1,26 @@
-// A scene on the GPU: its meshes, one texture of all their triangles, and the table of its objects.
+// A scene on the GPU: its meshes, one texture of the hierarchies over their triangles, and the table of its
+// objects. World coordinates are from the middle of the scene, and an object's own from the middle of its
+// mesh, so that nothing is lost to rounding far from the origin.
 #pragma once
 
 #include "gl/height_texture.h"
 #include "gl/mesh_buffer.h"
+#include "gl/program.h"
 #include "gl/target.h"
-#include "scene/cube.h"
 #include "scene/objects.h"
 
-/// What a drawing of an object takes; the uniforms' places in one program.
-typedef struct vtObjectUniforms {
-    GLint toWorld, toObject, object, mirrored, firstTriangle;
-} vtObjectUniforms;
+/// The uniforms of a program that draws objects.
+#define VT_OBJECT_UNIFORMS                                                                                   \
+    {                                                                                                        \
+        "u_toWorld", "u_toObject", "u_object", "u_mirrored"                                                  \
+    }
+
+/// Where a mesh's records are, and their grid (scene/hierarchy.h).
+typedef struct vtMeshRecords {
+    uint32_t first, count; ///< in vtSceneBuffer.records; 0 without triangles
+    vtVec3 origin;         ///< of the objects' own coordinates, in the mesh's
+    vtVec3 gridLow, gridScale;
+} vtMeshRecords;
 
 /// One object as it is drawn.
 typedef struct vtObjectBuffer {
@@ -18,25 +28,30 @@ typedef struct vtObjectBuffer {
     vtMaterial material;
     uint32_t mesh;           ///< in vtSceneBuffer.meshes
     uint32_t firstAttribute; ///< record, or VT_NO_TRIANGLE
-    vtVec3 ownMin, ownMax;   ///< the mesh's box in its own coordinates
+    vtTransform source;      ///< the scene's: placed.toWorld before the coordinates were moved
+    vtVec3 ownMin, ownMax;   ///< the mesh's box in the object's own coordinates
+    bool bothSides; ///< opaque, or glass with open edges or parts that overlap: rays meet its triangles from
+                    ///< either side
 } vtObjectBuffer;
 
 typedef struct vtSceneBuffer {
     vtMeshBuffer* meshes;
-    vtCubeFrame* cubeFrames; ///< of each mesh
+    vtMeshRecords* meshRecords; ///< of each mesh
     uint32_t meshCount;
     vtObjectBuffer* objects; ///< by rank: glass, then what is opaque
     uint32_t objectCount, glassCount;
     uint32_t* order;           ///< of the glass, from an eye: vtSceneBuffer_SortGlass
+    vtVec3 origin;             ///< the middle of the scene, in the caller's world
     vtVec3 glassMin, glassMax; ///< box of the glass, or of all where there is none; world
     vtVec3 low, high;          ///< of all
-    vtTexture triangles;     ///< RGBA32UI, scene/triangles.h, of all meshes; neighbours by their number in it
-    vtTexture attributes;    ///< RGBA32UI, constants.h; one texel where no opaque mesh has any
-    vtHeightTexture heights; ///< of the one relief that can be drawn by them: the first of glass
-    uint32_t heightsMesh;    ///< its mesh; meshCount: there is none
-    vtTexture images;        ///< of opaque materials, gl/image_array.h
-    vtTexture table;         ///< RGBA32UI: VT_OBJECT_...
-    uint32_t* words;         ///< of the table, as it was uploaded last
+    vtTexture records;         ///< RGBA32UI, VT_RECORDS_A_ROW a row, of all meshes
+    vtTexture tree;            ///< RGBA32UI, object_tree.h
+    vtTexture attributes;      ///< RGBA32UI, constants.h; one row where no opaque mesh has any
+    vtHeightTexture heights;   ///< of the one relief that can be drawn by them: the first of glass
+    uint32_t heightsMesh;      ///< its mesh; meshCount: there is none
+    vtTexture images;          ///< of opaque materials, gl/image_array.h
+    vtTexture table;           ///< RGBA32UI: VT_OBJECT_...
+    uint32_t *words, *fresh;   ///< of the table: as it was uploaded last, and room for the next
     size_t meshBytes;
 } vtSceneBuffer;
 
@@ -44,9 +59,13 @@ typedef struct vtSceneBuffer {
 vtResult vtSceneBuffer_Create(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* scene, vtError* error);
 void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl);
 
-/// Uploads the table where `words`, objectCount * VT_OBJECT_TEXELS * 4, differ from what it holds; true where
-/// they do.
-bool vtSceneBuffer_SetTable(vtSceneBuffer* buffer, const vtGL* gl, const uint32_t* words);
+/// Takes over a mesh whose vertices have moved, as vtMesh_Update left it. False where it does not fit in
+/// place: then the scene has to be uploaded anew.
+bool vtSceneBuffer_UpdateMesh(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* scene, uint32_t mesh);
+
+/// Uploads the table where buffer->fresh, objectCount * VT_OBJECT_TEXELS * 4, differs from what it holds;
+/// true where it does.
+bool vtSceneBuffer_SetTable(vtSceneBuffer* buffer, const vtGL* gl);
 
 /// Objects of glass by the distance of the middle of their boxes, the nearest first.
 void vtSceneBuffer_SortGlass(vtSceneBuffer* buffer, vtVec3 eye);
@@ -57,20 +76,8 @@ static inline bool vtSceneBuffer_HasHeights(const vtSceneBuffer* buffer, uint32_
     return object < buffer->glassCount && buffer->objects[object].mesh == buffer->heightsMesh;
 }
 
-/// Those that a program has.
-vtObjectUniforms vtFindObjectUniforms(const vtGL* gl, GLuint program);
-
-/// Draws objects first to last - 1, each from its vertices; the program in use has these uniforms. `heights`:
-/// but for those that vtSceneBuffer_DrawHeights draws.
-void vtSceneBuffer_Draw(const vtSceneBuffer* buffer, const vtGL* gl, const vtObjectUniforms* uniforms,
-                        uint32_t first, uint32_t last, bool heights);
-/// Of these objects the relief's that has its heights here, each by the 36 vertices of a box without
-/// attributes.
-void vtSceneBuffer_DrawHeights(const vtSceneBuffer* buffer, const vtGL* gl, const vtObjectUniforms* uniforms,
-                               uint32_t first, uint32_t last);
-/// The same without vertices: three for each triangle, which the vertex shader reads from the texture. A
-/// vertex array without attributes must be bound.
-void vtSceneBuffer_DrawTriangles(const vtSceneBuffer* buffer, const vtGL* gl,
-                                 const vtObjectUniforms* uniforms, uint32_t first, uint32_t last);
+/// Draws objects first to last - 1, each from its vertices; the program is in use and has VT_OBJECT_UNIFORMS.
+void vtSceneBuffer_Draw(const vtSceneBuffer* buffer, const vtGL* gl, const vtProgram* program, uint32_t first,
+                        uint32_t last);
 
 size_t vtSceneBuffer_TextureBytes(const vtSceneBuffer* buffer);

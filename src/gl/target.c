@@ -28,15 +28,27 @@ bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int wid
     return true;
 }
 
-void vtTexture_UploadRecords(vtTexture* texture, const vtGL* gl, const uint32_t* words, int count, int texels,
-                             int recordsARow)
+void vtTexture_SizeRecords(vtTexture* texture, const vtGL* gl, uint32_t count)
 {
-    const int whole = count / recordsARow, rest = count % recordsARow, width = recordsARow * texels;
-    vtTexture_Resize(texture, gl, GL_RGBA32UI, width, whole + (rest > 0), 0);
+    const uint32_t rows = (count + VT_RECORDS_A_ROW - 1) / VT_RECORDS_A_ROW;
+    vtTexture_Resize(texture, gl, GL_RGBA32UI, 4 * VT_RECORDS_A_ROW, rows > 0 ? (int)rows : 1, 0);
+}
+
+void vtTexture_SetRecords(const vtTexture* texture, const vtGL* gl, uint32_t first, uint32_t count,
+                          const uint32_t* words)
+{
     vtTexture_Bind(texture, gl, 0);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, whole, GL_RGBA_INTEGER, GL_UNSIGNED_INT, words);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, whole, rest * texels, rest > 0 ? 1 : 0, GL_RGBA_INTEGER,
-                      GL_UNSIGNED_INT, words + 4 * (size_t)width * (size_t)whole);
+    while (count > 0) { // the rest of a row, whole rows, the beginning of one
+        const uint32_t column = first % VT_RECORDS_A_ROW, room = VT_RECORDS_A_ROW - column;
+        const bool whole = column == 0 && count >= VT_RECORDS_A_ROW;
+        const uint32_t rows = whole ? count / VT_RECORDS_A_ROW : 1;
+        const uint32_t across = whole ? VT_RECORDS_A_ROW : count < room ? count : room;
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, (GLint)(4 * column), (GLint)(first / VT_RECORDS_A_ROW),
+                          (GLsizei)(4 * across), (GLsizei)rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT, words);
+        first += rows * across;
+        count -= rows * across;
+        words += VT_RECORD_WORDS * (size_t)rows * across;
+    }
 }
 
 void vtTexture_Destroy(vtTexture* texture, const vtGL* gl)
@@ -88,6 +100,15 @@ void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, int unit)
     gl->BindTexture(texture->target, texture->name);
 }
 
+void vtBindTextures(const vtGL* gl, const vtTexture* const* textures, size_t count)
+{
+    for (size_t unit = 0; unit < count; ++unit) {
+        if (textures[unit] != NULL && textures[unit]->name != 0) {
+            vtTexture_Bind(textures[unit], gl, (int)unit);
+        }
+    }
+}
+
 static void attach(const vtGL* gl, GLenum point, vtAttachment attachment)
 {
     const vtTexture* texture = attachment.texture;
@@ -114,7 +135,12 @@ vtResult vtMakeFramebuffer(const vtGL* gl, const char* name, const vtAttachment*
         attach(gl, GL_DEPTH_ATTACHMENT, (vtAttachment){depth, 0});
     }
     gl->DrawBuffers(colorCount > 0 ? colorCount : 1, buffers); // GL_NONE for a depth-only one
-    GLenum status = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
+#ifdef __EMSCRIPTEN__                                          // it would wait, as vtCheckFrame says
+    const GLenum status = GL_FRAMEBUFFER_COMPLETE;
+    (void)name;
+#else
+    const GLenum status = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
+#endif
     if (status != GL_FRAMEBUFFER_COMPLETE) {
         return vtFail(error, vt_errorContext,
                       "GL: the framebuffer '%s' is not complete (status 0x%04x); a smaller picture or fewer "

@@ -15,14 +15,19 @@ typedef struct vtTexture {
 /// Makes the texture of that format and size, dropping an older one of another; does nothing where the
 /// size is stable. layers = 0: GL_TEXTURE_2D, else GL_TEXTURE_2D_ARRAY. True where it was made anew.
 bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int width, int height, int layers);
-/// Makes the texture of `count` records of so many RGBA32UI texels each, so many to a row, and fills it.
-void vtTexture_UploadRecords(vtTexture* texture, const vtGL* gl, const uint32_t* words, int count, int texels,
-                             int recordsARow);
+/// Makes room for `count` records of VT_RECORD_WORDS, VT_RECORDS_A_ROW a row, one row at least; fills some of
+/// it.
+void vtTexture_SizeRecords(vtTexture* texture, const vtGL* gl, uint32_t count);
+void vtTexture_SetRecords(const vtTexture* texture, const vtGL* gl, uint32_t first, uint32_t count,
+                          const uint32_t* words);
 void vtTexture_Destroy(vtTexture* texture, const vtGL* gl);
 size_t vtTexture_Bytes(const vtTexture* texture);
 
 /// Binds to a texture unit, for reading.
 void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, int unit);
+
+/// The same of several, the first to unit 0; those that are NULL or not there are left out.
+void vtBindTextures(const vtGL* gl, const vtTexture* const* textures, size_t count);
 
 #define VT_MAX_ATTACHMENTS 4
 

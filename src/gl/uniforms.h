@@ -20,10 +20,9 @@ typedef struct vtFrameUniforms {
     float kay[4];    ///< largest and smallest transmittance, power, wall thickness
     int32_t search[4]; ///< layers, linear steps, binary steps, events
     int32_t size[4];   ///< picture width, height, layer width, height
-    int32_t cube[4];   ///< texels a side, layers, axes (3; 1: from the eye), highest level of the pyramid
     int32_t scene[4];  ///< objects of glass, objects, Fresnel reflection, the technique finds what is opaque
                        ///< itself
     int32_t output[4]; ///< vtOutput, layer, vtEnvironmentKind, transparent background
 } vtFrameUniforms;
 
-static_assert(sizeof(vtFrameUniforms) == 18 * 16, "vtFrameUniforms must mirror the std140 block");
+static_assert(sizeof(vtFrameUniforms) == 17 * 16, "vtFrameUniforms must mirror the std140 block");

@@ -17,16 +17,16 @@ static const vtProgramDef showDef = {
     .samplers = {"u_sum"},
 };
 
-vtResult vtAccumulatePass_Prepare(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
-                                  vtError* error)
+void vtAccumulatePass_Start(vtAccumulatePass* pass, const vtGL* gl, vtProgramList* programs)
+{
+    vtProgramList_Start(programs, &pass->addProgram, gl, &addDef);
+    vtProgramList_Start(programs, &pass->showProgram, gl, &showDef);
+}
+
+vtResult vtAccumulatePass_Resize(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
+                                 vtError* error)
 {
     vtResult result = vtSucceed(error);
-    if (pass->addProgram == 0) {
-        result = vtCreateProgram(gl, &addDef, &pass->addProgram, error);
-    }
-    if (result == vt_ok && pass->showProgram == 0) {
-        result = vtCreateProgram(gl, &showDef, &pass->showProgram, error);
-    }
     for (int i = 0; i < 2 && result == vt_ok; ++i) {
         if (vtTexture_Resize(&pass->sums[i], gl, GL_RGBA32UI, width, height, 0)) {
             pass->count = 0;
@@ -48,7 +48,7 @@ void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTextur
     pass->latest = 1 - pass->latest;
     ++pass->count;
     vtBindFramebuffer(gl, pass->framebuffers[pass->latest], before->width, before->height);
-    gl->UseProgram(pass->addProgram);
+    gl->UseProgram(pass->addProgram.name);
     vtTexture_Bind(radiance, gl, 0);
     vtTexture_Bind(before, gl, 1);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
@@ -58,7 +58,7 @@ void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint 
 {
     const vtTexture* sum = &pass->sums[pass->latest];
     vtBindFramebuffer(gl, framebuffer, sum->width, sum->height);
-    gl->UseProgram(pass->showProgram);
+    gl->UseProgram(pass->showProgram.name);
     vtTexture_Bind(sum, gl, 0);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -68,8 +68,8 @@ void vtAccumulatePass_Destroy(vtAccumulatePass* pass, const vtGL* gl)
     vtDestroyFramebuffers(gl, pass->framebuffers, 2);
     vtTexture_Destroy(&pass->sums[0], gl);
     vtTexture_Destroy(&pass->sums[1], gl);
-    gl->DeleteProgram(pass->addProgram);
-    gl->DeleteProgram(pass->showProgram);
+    vtProgram_Destroy(&pass->addProgram, gl);
+    vtProgram_Destroy(&pass->showProgram, gl);
     *pass = (vtAccumulatePass){0};
 }
 

@@ -6,16 +6,16 @@
 /// Several samples a pixel: their sum in linear light, and its mean as a picture. Floats are kept as bits in
 /// integers because ES 3.0 draws to no others.
 typedef struct vtAccumulatePass {
-    GLuint addProgram, showProgram; ///< compiled when first used
+    vtProgram addProgram, showProgram;
     GLuint framebuffers[2];
     vtTexture sums[2]; ///< RGBA32UI, in turns: WebGL forbids drawing to what is read
     int latest;        ///< which of them is the sum
     int count;         ///< samples in it; 0: whatever the textures hold, it is none
 } vtAccumulatePass;
 
-/// Compiles and sizes what the other two need; does nothing where all is there.
-vtResult vtAccumulatePass_Prepare(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
-                                  vtError* error);
+void vtAccumulatePass_Start(vtAccumulatePass* pass, const vtGL* gl, vtProgramList* programs);
+vtResult vtAccumulatePass_Resize(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
+                                 vtError* error);
 /// Adds the light of one sample.
 void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* radiance);
 void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer);

@@ -8,17 +8,12 @@ static const vtProgramDef programDef = {
     .vertex = {&vtChunk_screen_vert},
     .fragment = {&vtChunk_merge_frag},
     .samplers = {"u_layerDepths"},
+    .uniforms = {"u_group", "u_firstLayer"},
 };
 
-vtResult vtMergePass_Create(vtMergePass* pass, const vtGL* gl, vtError* error)
+void vtMergePass_Start(vtMergePass* pass, const vtGL* gl, vtProgramList* programs)
 {
-    *pass = (vtMergePass){0};
-    vtResult result = vtCreateProgram(gl, &programDef, &pass->program, error);
-    if (result == vt_ok) {
-        pass->groupLocation = gl->GetUniformLocation(pass->program, "u_group");
-        pass->firstLayerLocation = gl->GetUniformLocation(pass->program, "u_firstLayer");
-    }
-    return result;
+    vtProgramList_Start(programs, &pass->program, gl, &programDef);
 }
 
 vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers, int sets,
@@ -36,13 +31,13 @@ vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int he
 void vtMergePass_Draw(const vtMergePass* pass, const vtGL* gl, const vtTexture* layerDepths)
 {
     const int groups = (pass->layers + 3) / 4;
-    gl->UseProgram(pass->program);
+    gl->UseProgram(pass->program.name);
     vtTexture_Bind(layerDepths, gl, 0);
     vtBindFramebuffer(gl, pass->framebuffer, pass->depths.width, pass->depths.height);
     for (int slice = 0; slice < pass->depths.layers; ++slice) {
         gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, pass->depths.name, 0, slice);
-        gl->Uniform1i(pass->groupLocation, slice % groups);
-        gl->Uniform1i(pass->firstLayerLocation, slice / groups * pass->layers);
+        gl->Uniform1i(pass->program.uniforms[0], slice % groups);
+        gl->Uniform1i(pass->program.uniforms[1], slice / groups * pass->layers);
         gl->DrawArrays(GL_TRIANGLES, 0, 3);
     }
 }
@@ -51,6 +46,6 @@ void vtMergePass_Destroy(vtMergePass* pass, const vtGL* gl)
 {
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtTexture_Destroy(&pass->depths, gl);
-    gl->DeleteProgram(pass->program);
+    vtProgram_Destroy(&pass->program, gl);
     *pass = (vtMergePass){0};
 }

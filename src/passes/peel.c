@@ -14,26 +14,24 @@ static const vtProgramDef programDefs[vt_peelKindCount] = {
                     .vertex = {&vtChunk_layer, &vtChunk_mesh_vert},
                     .fragment = {&vtChunk_layer, &vtChunk_octahedral, &vtChunk_surface_attributes,
                                  &vtChunk_peel_frag},
-                    .samplers = {"u_previousDepth"}},
+                    .samplers = {"u_previousDepth"},
+                    .uniforms = VT_OBJECT_UNIFORMS},
     [vt_peelEachObject] = {.name = "peel object",
                            .vertex = {&vtChunk_objects, &vtChunk_layer_of_object, &vtChunk_mesh_vert},
                            .fragment = {&vtChunk_objects, &vtChunk_layer_of_object, &vtChunk_octahedral,
                                         &vtChunk_surface_attributes, &vtChunk_peel_frag},
-                           .samplers = {"u_previousDepth", "u_objects"}},
+                           .samplers = {"u_previousDepth", "u_objects"},
+                           .uniforms = VT_OBJECT_UNIFORMS},
     [vt_peelFarthest] = {.name = "farthest",
                          .vertex = {&vtChunk_layer, &vtChunk_mesh_vert},
                          .fragment = {&vtChunk_layer, &vtChunk_farthest, &vtChunk_octahedral,
-                                      &vtChunk_surface_attributes, &vtChunk_peel_frag}},
+                                      &vtChunk_surface_attributes, &vtChunk_peel_frag},
+                         .uniforms = VT_OBJECT_UNIFORMS},
 };
 
-vtResult vtPeelPass_Prepare(vtPeelPass* pass, const vtGL* gl, vtPeelKind kind, vtError* error)
+void vtPeelPass_Start(vtPeelPass* pass, const vtGL* gl, vtPeelKind kind, vtProgramList* programs)
 {
-    if (pass->programs[kind] != 0) {
-        return vtSucceed(error);
-    }
-    vtResult result = vtCreateProgram(gl, &programDefs[kind], &pass->programs[kind], error);
-    pass->uniforms[kind] = vtFindObjectUniforms(gl, pass->programs[kind]);
-    return result;
+    vtProgramList_Start(programs, &pass->programs[kind], gl, &programDefs[kind]);
 }
 
 vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers, int sets,
@@ -82,7 +80,7 @@ static void drawLayer(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffe
     gl->ClearBufferuiv(GL_COLOR, 0, noNormal);
     gl->ClearBufferuiv(GL_COLOR, 1, noDepth);
     vtTexture_Bind(&pass->depthBuffers[1 - buffer], gl, 0);
-    vtSceneBuffer_Draw(scene, gl, &pass->uniforms[kind], first, last, false);
+    vtSceneBuffer_Draw(scene, gl, &pass->programs[kind], first, last);
 }
 
 static void peelSet(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene, vtPeelKind kind,
@@ -101,7 +99,7 @@ void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer
 {
     const uint32_t glass = scene->glassCount;
     gl->Enable(GL_DEPTH_TEST);
-    gl->UseProgram(pass->programs[kind]);
+    gl->UseProgram(pass->programs[kind].name);
     if (kind == vt_peelFarthest) {
         gl->DepthFunc(GL_GREATER);
         drawLayer(pass, gl, scene, kind, 1, 0, glass);
@@ -126,7 +124,7 @@ void vtPeelPass_Destroy(vtPeelPass* pass, const vtGL* gl)
     vtTexture_Destroy(&pass->depths, gl);
     vtTexture_Destroy(&pass->normals, gl);
     for (int i = 0; i < vt_peelKindCount; ++i) {
-        gl->DeleteProgram(pass->programs[i]);
+        vtProgram_Destroy(&pass->programs[i], gl);
     }
     *pass = (vtPeelPass){0};
 }

@@ -15,8 +15,7 @@ typedef enum vtPeelKind {
 } vtPeelKind;
 
 typedef struct vtPeelPass {
-    GLuint programs[vt_peelKindCount]; ///< compiled when first used
-    vtObjectUniforms uniforms[vt_peelKindCount];
+    vtProgram programs[vt_peelKindCount];
     GLuint startFramebuffer; ///< the depth that the first layer is compared with
     GLuint framebuffers[2];  ///< by depth buffer
     int layers;              ///< of a set
@@ -29,8 +28,7 @@ typedef struct vtPeelPass {
     vtTexture normals; ///< RG32UI array: octahedral normals, interpolated and of the triangle
 } vtPeelPass;
 
-/// Compiles what that kind needs; does nothing the second time.
-vtResult vtPeelPass_Prepare(vtPeelPass* pass, const vtGL* gl, vtPeelKind kind, vtError* error);
+void vtPeelPass_Start(vtPeelPass* pass, const vtGL* gl, vtPeelKind kind, vtProgramList* programs);
 /// sets: 1, or one for each object of glass.
 vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers, int sets,
                            vtError* error);

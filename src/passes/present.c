@@ -9,17 +9,16 @@ static const vtProgramDef programDef = {
     .samplers = {"u_paths", "u_radiance", "u_layerDepths", "u_layerNormals"},
 };
 
-vtResult vtPresentPass_Create(vtPresentPass* pass, const vtGL* gl, vtError* error)
+void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtProgramList* programs)
 {
-    *pass = (vtPresentPass){0};
-    return vtCreateProgram(gl, &programDef, &pass->program, error);
+    vtProgramList_Start(programs, &pass->program, gl, &programDef);
 }
 
 void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPresentInputs* inputs,
                         GLuint framebuffer, int width, int height)
 {
     vtBindFramebuffer(gl, framebuffer, width, height);
-    gl->UseProgram(pass->program);
+    gl->UseProgram(pass->program.name);
     vtTexture_Bind(inputs->paths, gl, 0);
     vtTexture_Bind(inputs->radiance, gl, 1);
     if (inputs->layerDepths->name != 0) {
@@ -31,6 +30,6 @@ void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPrese
 
 void vtPresentPass_Destroy(vtPresentPass* pass, const vtGL* gl)
 {
-    gl->DeleteProgram(pass->program);
+    vtProgram_Destroy(&pass->program, gl);
     *pass = (vtPresentPass){0};
 }

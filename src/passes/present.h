@@ -6,7 +6,7 @@
 /// Turns light into the picture, or shows a layer or the analysis. The last pass, into the caller's
 /// framebuffer.
 typedef struct vtPresentPass {
-    GLuint program;
+    vtProgram program;
 } vtPresentPass;
 
 /// What the picture is made from.
@@ -17,7 +17,7 @@ typedef struct vtPresentInputs {
     const vtTexture* layerNormals;
 } vtPresentInputs;
 
-vtResult vtPresentPass_Create(vtPresentPass* pass, const vtGL* gl, vtError* error);
+void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtProgramList* programs);
 void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPresentInputs* inputs,
                         GLuint framebuffer, int width, int height);
 void vtPresentPass_Destroy(vtPresentPass* pass, const vtGL* gl);

@@ -4,55 +4,24 @@
 #include "shaders.h"
 
 // By whether inner distances are drawn.
-static const vtProgramDef glassDefs[2] = {
+static const vtProgramDef programDefs[2] = {
     {.name = "surface",
      .vertex = {&vtChunk_picture, &vtChunk_mesh_vert},
-     .fragment = {&vtChunk_octahedral, &vtChunk_surface_attributes, &vtChunk_surface_frag}},
+     .fragment = {&vtChunk_octahedral, &vtChunk_surface_attributes, &vtChunk_surface_frag},
+     .uniforms = VT_OBJECT_UNIFORMS},
     {.name = "surface with inner distance",
      .vertex = {&vtChunk_inner_distance, &vtChunk_picture, &vtChunk_mesh_vert},
      .fragment = {&vtChunk_inner_distance, &vtChunk_octahedral, &vtChunk_surface_attributes,
-                  &vtChunk_surface_frag}},
+                  &vtChunk_surface_frag},
+     .uniforms = VT_OBJECT_UNIFORMS},
 };
 
-static const vtProgramDef opaqueDefs[2] = {
-    {.name = "opaque surface",
-     .vertex = {&vtChunk_triangles, &vtChunk_surface_opaque_vert},
-     .fragment = {&vtChunk_surface_opaque_frag},
-     .samplers = {"u_triangles"}},
-    {.name = "opaque surface without inner distance",
-     .vertex = {&vtChunk_triangles, &vtChunk_surface_opaque_vert},
-     .fragment = {&vtChunk_inner_distance, &vtChunk_surface_opaque_frag},
-     .samplers = {"u_triangles"}},
-};
-
-static const vtProgramDef heightsDef = {
-    .name = "surface of heights",
-    .vertex = {&vtChunk_objects, &vtChunk_surface_heights_vert},
-    .fragment = {&vtChunk_octahedral, &vtChunk_objects, &vtChunk_grid_walk, &vtChunk_search_heights,
-                 &vtChunk_surface_heights_frag},
-    .samplers = {"u_objects", "u_heights", "u_heightRanges"},
-};
-
-static vtResult createPrograms(vtSurfacePass* pass, const vtGL* gl, int kind, vtError* error)
+void vtSurfacePass_Start(vtSurfacePass* pass, const vtGL* gl, bool distances, vtProgramList* programs)
 {
-    vtResult result = vtCreateProgram(gl, &glassDefs[kind], &pass->glassPrograms[kind], error);
-    if (result == vt_ok) {
-        result = vtCreateProgram(gl, &opaqueDefs[kind], &pass->opaquePrograms[kind], error);
-    }
-    if (result == vt_ok) {
-        pass->glassUniforms[kind] = vtFindObjectUniforms(gl, pass->glassPrograms[kind]);
-        pass->opaqueUniforms[kind] = vtFindObjectUniforms(gl, pass->opaquePrograms[kind]);
-    }
-    return result;
+    vtProgramList_Start(programs, &pass->programs[distances], gl, &programDefs[distances]);
 }
 
-vtResult vtSurfacePass_Create(vtSurfacePass* pass, const vtGL* gl, vtError* error)
-{
-    *pass = (vtSurfacePass){0};
-    return createPrograms(pass, gl, 0, error);
-}
-
-vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, vtSurfaceKind kind,
+vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, bool distances,
                               vtError* error)
 {
     bool changed = vtTexture_Resize(&pass->depth, gl, GL_DEPTH_COMPONENT32F, width, height, 0);
@@ -63,19 +32,11 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
         vtDestroyFramebuffers(gl, &pass->framebuffers[1], 1); // it holds the depth that is gone
         result = vtMakeFramebuffer(gl, "surface", colors, 1, &pass->depth, &pass->framebuffers[0], error);
     }
-    if (result == vt_ok && kind == vt_surfaceHeights && pass->heightsProgram == 0) {
-        result = vtCreateProgram(gl, &heightsDef, &pass->heightsProgram, error);
-        pass->heightsUniforms =
-            result == vt_ok ? vtFindObjectUniforms(gl, pass->heightsProgram) : pass->heightsUniforms;
-    }
-    if (result != vt_ok || kind != vt_surfaceDistances) {
+    if (result != vt_ok || !distances) {
         return result;
     }
-    if (pass->glassPrograms[1] == 0) {
-        result = createPrograms(pass, gl, 1, error);
-    }
     changed = vtTexture_Resize(&pass->distances, gl, GL_R16UI, width, height, 0);
-    if (result == vt_ok && (changed || pass->framebuffers[1] == 0)) {
+    if (changed || pass->framebuffers[1] == 0) {
         result = vtMakeFramebuffer(gl, "surface with inner distance", colors, 2, &pass->depth,
                                    &pass->framebuffers[1], error);
     }
@@ -83,9 +44,9 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
 }
 
 void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, uint32_t first,
-                        uint32_t last, vtSurfaceKind kind, GLuint emptyVertexArray)
+                        uint32_t last, bool distances)
 {
-    const bool distances = kind == vt_surfaceDistances, heights = kind == vt_surfaceHeights;
+    const vtProgram* program = &pass->programs[distances];
     const float far = 1.0f;
     const GLuint none[4] = {0};
     vtBindFramebuffer(gl, pass->framebuffers[distances], pass->depth.width, pass->depth.height);
@@ -95,23 +56,9 @@ void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtScene
     if (distances) {
         gl->ClearBufferuiv(GL_COLOR, 1, none);
     }
-    gl->UseProgram(pass->glassPrograms[distances]);
-    vtSceneBuffer_Draw(scene, gl, &pass->glassUniforms[distances], first, last, heights);
-    if (heights) {
-        gl->UseProgram(pass->heightsProgram);
-        vtTexture_Bind(&scene->table, gl, 0);
-        vtTexture_Bind(&scene->heights.heights, gl, 1);
-        vtTexture_Bind(&scene->heights.ranges, gl, 2);
-        gl->BindVertexArray(emptyVertexArray);
-        vtSceneBuffer_DrawHeights(scene, gl, &pass->heightsUniforms, first, last);
-    }
-    if (scene->objectCount > scene->glassCount) {
-        gl->UseProgram(pass->opaquePrograms[distances]);
-        vtTexture_Bind(&scene->triangles, gl, 0);
-        gl->BindVertexArray(emptyVertexArray);
-        vtSceneBuffer_DrawTriangles(scene, gl, &pass->opaqueUniforms[distances], scene->glassCount,
-                                    scene->objectCount);
-    }
+    gl->UseProgram(program->name);
+    vtSceneBuffer_Draw(scene, gl, program, first, last);
+    vtSceneBuffer_Draw(scene, gl, program, scene->glassCount, scene->objectCount);
     gl->Disable(GL_DEPTH_TEST);
 }
 
@@ -121,10 +68,8 @@ void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl)
     vtTexture_Destroy(&pass->distances, gl);
     vtTexture_Destroy(&pass->depth, gl);
     vtTexture_Destroy(&pass->attributes, gl);
-    gl->DeleteProgram(pass->heightsProgram);
     for (int i = 0; i < 2; ++i) {
-        gl->DeleteProgram(pass->glassPrograms[i]);
-        gl->DeleteProgram(pass->opaquePrograms[i]);
+        vtProgram_Destroy(&pass->programs[i], gl);
     }
     *pass = (vtSurfacePass){0};
 }

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "scene/bvh.h"
+#include "scene/hierarchy.h"
 
 vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error)
 {
@@ -16,23 +16,27 @@ vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error)
             error, vt_errorGeometry,
             "inner distances: the mesh is a relief without triangles; call vtTriangulateRelief first");
     }
-    vtBvh* bvh = vtCreateBvh(mesh);
     float* distances = malloc(mesh->vertexCount * sizeof *distances);
-    if (bvh == NULL || distances == NULL) {
-        vtDestroyBvh(bvh);
-        free(distances);
+    if (distances == NULL) {
         return vtFail(error, vt_errorMemory, "inner distances: out of memory for %u triangles",
                       mesh->indexCount / 3);
+    }
+    vtHierarchy hierarchy;
+    const vtResult result = vtCreateHierarchy(mesh, &hierarchy, error);
+    if (result != vt_ok) {
+        free(distances);
+        return result;
     }
     // The vertex's own triangles lie at distance zero.
     float start = 1e-5f * vtLength(vtSub(mesh->boundsMax, mesh->boundsMin));
     for (size_t i = 0; i < mesh->vertexCount; ++i) {
         vtVec3 inward = vtScale(vtMakeVec3(mesh->normals + 3 * i), -1.0f);
-        vtBvhHit hit;
-        bool found = vtBvh_Trace(bvh, vtMakeVec3(mesh->positions + 3 * i), inward, start, true, &hit);
+        vtHierarchyHit hit;
+        bool found =
+            vtHierarchy_Trace(&hierarchy, vtMakeVec3(mesh->positions + 3 * i), inward, start, 2, &hit);
         distances[i] = found ? hit.distance : 0.0f;
     }
-    vtDestroyBvh(bvh);
+    vtDestroyHierarchy(&hierarchy);
     mesh->innerDistances = distances;
     return vtSucceed(error);
 }

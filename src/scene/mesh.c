@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "scene/height_field.h"
+#include "scene/hierarchy.h"
 #include "scene/weld.h"
 
 #include <assert.h>
@@ -267,15 +268,17 @@ static void countDegenerate(vtMesh* mesh, const uint32_t* welded)
 /// Of the vertices that triangles use: a stray vertex must not push the camera away.
 static void findBounds(vtMesh* mesh)
 {
-    vtVec3 low = vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[0]);
-    vtVec3 high = low;
+    const float* first = mesh->positions + 3 * (size_t)mesh->indices[0];
+    float low[3] = {first[0], first[1], first[2]}, high[3] = {first[0], first[1], first[2]};
     for (size_t i = 1; i < mesh->indexCount; ++i) {
-        vtVec3 p = vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]);
-        low = (vtVec3){fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z)};
-        high = (vtVec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
+        const float* p = mesh->positions + 3 * (size_t)mesh->indices[i];
+        for (int axis = 0; axis < 3; ++axis) { // comparisons, which are inlined where fminf is a call
+            low[axis] = p[axis] < low[axis] ? p[axis] : low[axis];
+            high[axis] = p[axis] > high[axis] ? p[axis] : high[axis];
+        }
     }
-    mesh->boundsMin = low;
-    mesh->boundsMax = high;
+    mesh->boundsMin = vtMakeVec3(low);
+    mesh->boundsMax = vtMakeVec3(high);
 }
 
 // ------------------------------------------------------------------------------------------------- calls
@@ -361,6 +364,73 @@ vtResult vtCreateMesh(const vtMeshDef* def, const char* name, vtMesh* mesh, vtEr
     return vtSucceed(error);
 }
 
+static bool areFinite(const float* numbers, size_t count)
+{
+    float sum = 0.0f;
+    for (size_t i = 0; i < count; ++i) {
+        sum += 0.0f * numbers[i]; // NaN for NaN and infinity
+    }
+    return sum == 0.0f;
+}
+
+/// Normals given or computed for the positions that the mesh has now.
+static bool updateNormals(vtMesh* mesh, const float* normals)
+{
+    const size_t count = 3 * (size_t)mesh->vertexCount;
+    if (normals != NULL) {
+        memcpy(mesh->normals, normals, count * sizeof *normals);
+    } else {
+        memset(mesh->normals, 0, count * sizeof *normals);
+    }
+    mesh->normalsComputed = !normalizeGiven(mesh);
+    uint32_t* welded = mesh->normalsComputed ? calloc(mesh->vertexCount, sizeof *welded) : NULL;
+    const bool ready = !mesh->normalsComputed ||
+                       (welded != NULL && vtWeldPositions(mesh, welded) && completeNormals(mesh, welded));
+    free(welded);
+    return ready;
+}
+
+/// The hierarchy follows the vertices.
+static vtResult updateHierarchy(vtMesh* mesh, vtError* error)
+{
+    if (mesh->hierarchy == NULL) {
+        return vtSucceed(error);
+    }
+    const bool grows = mesh->degenerateCount > 0; // the hierarchy is without those
+    vtResult result = grows ? vt_ok : vtHierarchy_Refit(mesh->hierarchy, mesh, error);
+    if (result == vt_ok && (grows || vtHierarchy_IsWorn(mesh->hierarchy))) {
+        vtHierarchy fresh;
+        result = vtCreateHierarchy(mesh, &fresh, error);
+        if (result == vt_ok) {
+            vtDestroyHierarchy(mesh->hierarchy);
+            *mesh->hierarchy = fresh;
+        }
+    }
+    return result;
+}
+
+vtResult vtMesh_Update(vtMesh* mesh, const float* positions, const float* normals, vtError* error)
+{
+    const size_t count = 3 * (size_t)mesh->vertexCount;
+    if (mesh->indexCount == 0) {
+        return vtFail(error, vt_errorGeometry, "mesh: it has no triangles whose vertices could move");
+    }
+    if (!areFinite(positions, count) || (normals != NULL && !areFinite(normals, count))) {
+        return vtFail(error, vt_errorGeometry, "mesh: a new position or normal is not a finite number");
+    }
+    memcpy(mesh->positions, positions, count * sizeof *positions);
+    findBounds(mesh);
+    free(mesh->innerDistances);
+    mesh->innerDistances = NULL;
+    vtDestroyHeightField(mesh->heights);
+    mesh->heights = NULL;
+    if (!updateNormals(mesh, normals)) {
+        return vtFail(error, vt_errorMemory, "mesh: out of memory for the normals of %u vertices",
+                      mesh->vertexCount);
+    }
+    return updateHierarchy(mesh, error);
+}
+
 void vtDestroyMesh(vtMesh* mesh)
 {
     assert(mesh != NULL);
@@ -371,5 +441,9 @@ void vtDestroyMesh(vtMesh* mesh)
     free(mesh->texcoords);
     free(mesh->colors);
     vtDestroyHeightField(mesh->heights);
+    if (mesh->hierarchy != NULL) {
+        vtDestroyHierarchy(mesh->hierarchy);
+        free(mesh->hierarchy);
+    }
     *mesh = (vtMesh){0};
 }

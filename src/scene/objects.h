@@ -42,6 +42,10 @@ typedef struct vtPlacedObject {
 /// into the scene. Fails as vtValidateScene does, and with vt_errorMemory.
 vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error);
 
+/// Moves the object's coordinates to the mesh's point `own` and the world's to `world`, at little loss
+/// however far these are from the origin.
+void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world);
+
 /// The first mesh that is a relief and glass, the one that technique `heightfield` draws by its heights;
 /// meshCount: there is none.
 uint32_t vtScene_Relief(const vtScene* scene);

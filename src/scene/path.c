@@ -3,13 +3,14 @@
 // light could pass it does, however much of it is reflected.
 #include <float.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "base/math.h"
 #include "base/optics.h"
-#include "scene/bvh.h"
 #include "scene/camera.h"
 #include "scene/height_trace.h"
+#include "scene/hierarchy.h"
 #include "scene/media.h"
 #include "scene/mesh_triangle.h"
 #include "scene/objects.h"
@@ -17,10 +18,18 @@
 /// Surfaces passed by without an event before a path is given up, should rounding ever make an endless loop.
 enum { maxPasses = 1000 };
 
+/// Where an object is met.
+typedef struct Spot {
+    float distance;
+    float u, v;           ///< weights of the triangle's second and third corner
+    uint32_t triangle;    ///< of a relief
+    uint32_t vertices[3]; ///< of another mesh
+} Spot;
+
 /// What a path meets.
 typedef struct Meeting {
     uint32_t object; ///< number of those placed
-    vtBvhHit hit;
+    Spot spot;
     uint32_t also;      ///< another object of glass whose surface is at the same place; objectCount: none
     bool touchesOpaque; ///< something opaque is at the same place
 } Meeting;
@@ -28,7 +37,7 @@ typedef struct Meeting {
 typedef struct Tracer {
     const vtScene* scene;
     vtPlacedObject* placed;
-    vtBvh** bvhs; ///< by mesh; NULL: of a relief, whose heights need none
+    vtHierarchy* built; ///< by mesh, of those that have no hierarchy of their own
     uint32_t glassCount;
     float same; ///< surfaces nearer to one another lie at one place
     float ior;  ///< of all glass; 0: each object's own
@@ -41,38 +50,46 @@ static float degreesBetween(vtVec3 a, vtVec3 b)
 
 // Reliefs are met by their heights even where they have triangles, whose numbers are others on the back.
 
-static void readCorners(const vtMesh* mesh, uint32_t triangle, vtVec3 corners[3])
+/// Three numbers of each of the triangle's vertices.
+static void readVertices(const float* numbers, const Spot* spot, vtVec3 vectors[3])
 {
-    if (mesh->heights != NULL) {
-        vtHeightField_Corners(mesh->heights, triangle, corners);
-    } else {
-        vtMesh_Corners(mesh, triangle, corners);
+    for (int i = 0; i < 3; ++i) {
+        vectors[i] = vtMakeVec3(numbers + 3 * (size_t)spot->vertices[i]);
     }
 }
 
-static vtVec3 pointOf(const vtMesh* mesh, const vtBvhHit* hit)
+static void readCorners(const vtMesh* mesh, const Spot* spot, vtVec3 corners[3])
 {
-    vtVec3 corners[3];
-    readCorners(mesh, hit->triangle, corners);
-    return vtBlend(corners, hit->u, hit->v);
+    if (mesh->heights != NULL) {
+        vtHeightField_Corners(mesh->heights, spot->triangle, corners);
+    } else {
+        readVertices(mesh->positions, spot, corners);
+    }
 }
 
-static vtVec3 flatNormal(const vtMesh* mesh, const vtBvhHit* hit)
+static vtVec3 pointOf(const vtMesh* mesh, const Spot* spot)
+{
+    vtVec3 corners[3];
+    readCorners(mesh, spot, corners);
+    return vtBlend(corners, spot->u, spot->v);
+}
+
+static vtVec3 flatNormal(const vtMesh* mesh, const Spot* spot)
 {
     vtVec3 p[3];
-    readCorners(mesh, hit->triangle, p);
+    readCorners(mesh, spot, p);
     return vtCross(vtSub(p[1], p[0]), vtSub(p[2], p[0]));
 }
 
-static vtVec3 smoothNormal(const vtMesh* mesh, const vtBvhHit* hit)
+static vtVec3 smoothNormal(const vtMesh* mesh, const Spot* spot)
 {
     vtVec3 normals[3];
     if (mesh->heights != NULL) {
-        vtHeightField_Normals(mesh->heights, hit->triangle, normals);
+        vtHeightField_Normals(mesh->heights, spot->triangle, normals);
     } else {
-        vtMesh_Normals(mesh, hit->triangle, normals);
+        readVertices(mesh->normals, spot, normals);
     }
-    return vtBlend(normals, hit->u, hit->v);
+    return vtBlend(normals, spot->u, spot->v);
 }
 
 static vtVec3 toWorld(const vtPlacedObject* placed, vtVec3 normal)
@@ -84,10 +101,10 @@ static vtVec3 toWorld(const vtPlacedObject* placed, vtVec3 normal)
 
 static void destroyTracer(Tracer* tracer)
 {
-    for (uint32_t i = 0; tracer->bvhs != NULL && i < tracer->scene->meshCount; ++i) {
-        vtDestroyBvh(tracer->bvhs[i]);
+    for (uint32_t i = 0; tracer->built != NULL && i < tracer->scene->meshCount; ++i) {
+        vtDestroyHierarchy(&tracer->built[i]);
     }
-    free(tracer->bvhs);
+    free(tracer->built);
     free(tracer->placed);
 }
 
@@ -98,18 +115,20 @@ static vtResult createTracer(const vtScene* scene, Tracer* tracer, vtError* erro
     if (result != vt_ok) {
         return result;
     }
-    tracer->bvhs = calloc(scene->meshCount, sizeof *tracer->bvhs);
-    bool isThere = tracer->bvhs != NULL;
-    for (uint32_t i = 0; i < scene->objectCount && isThere; ++i) {
-        const uint32_t mesh = tracer->placed[i].meshIndex;
-        if (tracer->bvhs[mesh] == NULL && tracer->placed[i].mesh->heights == NULL) {
-            tracer->bvhs[mesh] = vtCreateBvh(tracer->placed[i].mesh);
-            isThere = tracer->bvhs[mesh] != NULL;
+    tracer->built = calloc(scene->meshCount, sizeof *tracer->built);
+    if (tracer->built == NULL) {
+        result = vtFail(error, vt_errorMemory, "path: out of memory for %u objects", scene->objectCount);
+    }
+    for (uint32_t i = 0; i < scene->objectCount && result == vt_ok; ++i) {
+        const vtMesh* mesh = tracer->placed[i].mesh;
+        vtHierarchy* hierarchy = &tracer->built[tracer->placed[i].meshIndex];
+        if (mesh->hierarchy == NULL && hierarchy->recordCount == 0 && mesh->heights == NULL) {
+            result = vtCreateHierarchy(mesh, hierarchy, error);
         }
     }
-    if (!isThere) {
+    if (result != vt_ok) {
         destroyTracer(tracer);
-        return vtFail(error, vt_errorMemory, "path: out of memory for %u objects", scene->objectCount);
+        return result;
     }
     vtVec3 low, high;
     vtScene_Bounds(scene, &low, &high);
@@ -118,35 +137,39 @@ static vtResult createTracer(const vtScene* scene, Tracer* tracer, vtError* erro
 }
 
 static bool traceRelief(const vtMesh* mesh, vtVec3 origin, vtVec3 direction, float start, int sides,
-                        vtBvhHit* hit)
+                        Spot* spot)
 {
     vtHeightHit found;
-    hit->distance = FLT_MAX;
+    spot->distance = FLT_MAX;
     if (!vtHeightField_Trace(mesh->heights, origin, direction, start, FLT_MAX, sides, vt_separateAll,
                              &found)) {
         return false;
     }
-    *hit = (vtBvhHit){found.distance, found.triangle, found.u, found.v};
+    *spot = (Spot){.distance = found.distance, .u = found.u, .v = found.v, .triangle = found.triangle};
     return true;
+}
+
+static const vtHierarchy* hierarchyOf(const Tracer* tracer, const vtPlacedObject* placed)
+{
+    return placed->mesh->hierarchy != NULL ? placed->mesh->hierarchy : &tracer->built[placed->meshIndex];
 }
 
 /// The object's first surface beyond `start`. `sides`: 1 entered through, 2 left through, 3 either.
 static bool traceObject(const Tracer* tracer, uint32_t object, vtVec3 origin, vtVec3 direction, float start,
-                        int sides, vtBvhHit* hit)
+                        int sides, Spot* spot)
 {
     const vtPlacedObject* placed = &tracer->placed[object];
-    const vtBvh* bvh = tracer->bvhs[placed->meshIndex];
     // Not made a unit vector, so that distances are the world's.
     const vtVec3 o = vtTransformPoint(&placed->toObject, origin);
     const vtVec3 d = vtTransformVector(&placed->toObject, direction);
     if (placed->mesh->heights != NULL) {
-        return traceRelief(placed->mesh, o, d, start, sides, hit);
+        return traceRelief(placed->mesh, o, d, start, sides, spot);
     }
-    vtBvhHit hits[2] = {{.distance = FLT_MAX}, {.distance = FLT_MAX}};
-    const bool enters = (sides & 1) != 0 && vtBvh_Trace(bvh, o, d, start, false, &hits[0]);
-    const bool leaves = (sides & 2) != 0 && vtBvh_Trace(bvh, o, d, start, true, &hits[1]);
-    *hit = leaves && (!enters || hits[1].distance < hits[0].distance) ? hits[1] : hits[0];
-    return enters || leaves;
+    vtHierarchyHit hit;
+    const bool found = vtHierarchy_Trace(hierarchyOf(tracer, placed), o, d, start, sides, &hit);
+    *spot = (Spot){.distance = hit.distance, .u = hit.u, .v = hit.v};
+    memcpy(spot->vertices, hit.vertices, sizeof spot->vertices);
+    return found;
 }
 
 /// The nearest surface of all objects; false where there is none. `start` is 0 at the eye, of which nothing
@@ -156,23 +179,23 @@ static bool findNearest(const Tracer* tracer, const vtMedia* media, vtVec3 origi
 {
     const uint32_t count = tracer->scene->objectCount;
     float opaque = FLT_MAX;
-    *meeting = (Meeting){.object = count, .hit.distance = FLT_MAX, .also = count};
+    *meeting = (Meeting){.object = count, .spot.distance = FLT_MAX, .also = count};
     for (uint32_t i = 0; i < count; ++i) {
         const bool isOpaque = i >= tracer->glassCount;
         const int sides = isOpaque || start <= 0.0f ? 3 : vtMedia_Holds(media, i + 1) ? 2 : 1;
-        vtBvhHit hit;
-        if (!traceObject(tracer, i, origin, direction, start, sides, &hit)) {
+        Spot spot;
+        if (!traceObject(tracer, i, origin, direction, start, sides, &spot)) {
             continue;
         }
-        opaque = isOpaque ? fminf(opaque, hit.distance) : opaque;
-        const bool isSame = fabsf(hit.distance - meeting->hit.distance) <= tracer->same;
+        opaque = isOpaque ? fminf(opaque, spot.distance) : opaque;
+        const bool isSame = fabsf(spot.distance - meeting->spot.distance) <= tracer->same;
         if (isSame && !isOpaque) {
             meeting->also = i; // touching glass is crossed at once
-        } else if (!isSame && hit.distance < meeting->hit.distance) {
-            *meeting = (Meeting){.object = i, .hit = hit, .also = count};
+        } else if (!isSame && spot.distance < meeting->spot.distance) {
+            *meeting = (Meeting){.object = i, .spot = spot, .also = count};
         }
     }
-    meeting->touchesOpaque = opaque - meeting->hit.distance <= tracer->same;
+    meeting->touchesOpaque = opaque - meeting->spot.distance <= tracer->same;
     return meeting->object < count;
 }
 
@@ -189,8 +212,8 @@ static bool cross(const Tracer* tracer, const Meeting* meeting, int maxEvents, v
                   vtMedia* media, vtVec3* direction, vtPath* path)
 {
     const vtPlacedObject* placed = &tracer->placed[meeting->object];
-    const vtVec3 G = toWorld(placed, flatNormal(placed->mesh, &meeting->hit));
-    const vtVec3 N = toWorld(placed, smoothNormal(placed->mesh, &meeting->hit));
+    const vtVec3 G = toWorld(placed, flatNormal(placed->mesh, &meeting->spot));
+    const vtVec3 N = toWorld(placed, smoothNormal(placed->mesh, &meeting->spot));
     const vtVec3 I = *direction;
     // The surface says on which side of it the path is.
     const bool leaving = vtDot(G, I) > 0.0f;
@@ -229,7 +252,7 @@ static void follow(const Tracer* tracer, int maxEvents, vtVec3 origin, vtVec3 di
     bool isLost = false;
     for (int pass = 0; !isLost && findNearest(tracer, &media, origin, direction, start, &meeting); ++pass) {
         const vtPlacedObject* placed = &tracer->placed[meeting.object];
-        origin = vtTransformPoint(&placed->toWorld, pointOf(placed->mesh, &meeting.hit));
+        origin = vtTransformPoint(&placed->toWorld, pointOf(placed->mesh, &meeting.spot));
         bool isOpaque = meeting.object >= tracer->glassCount;
         if (!isOpaque) {
             const int events = path->eventCount;

@@ -185,10 +185,9 @@ static double volumeOf(const vtPlacedObject* placed)
     return fabs(sum * (double)determinant(&placed->toWorld));
 }
 
-/// The box of the eight corners of the mesh's box.
-static void boundObject(vtPlacedObject* placed)
+/// The box of the eight corners of the box from a to b, own coordinates.
+static void boundObject(vtPlacedObject* placed, vtVec3 a, vtVec3 b)
 {
-    const vtVec3 a = placed->mesh->boundsMin, b = placed->mesh->boundsMax;
     placed->low = (vtVec3){FLT_MAX, FLT_MAX, FLT_MAX};
     placed->high = (vtVec3){-FLT_MAX, -FLT_MAX, -FLT_MAX};
     for (int corner = 0; corner < 8; ++corner) {
@@ -242,7 +241,7 @@ static vtResult placeObject(const vtScene* scene, uint32_t index, vtPlacedObject
         .absorption = {absorb(color.x, distance), absorb(color.y, distance), absorb(color.z, distance)},
         .mirrored = scale < 0.0f,
     };
-    boundObject(placed);
+    boundObject(placed, placed->mesh->boundsMin, placed->mesh->boundsMax);
     return vt_ok;
 }
 
@@ -369,6 +368,18 @@ static bool isUsed(const vtScene* scene, uint32_t mesh, bool opaque)
     return used;
 }
 
+void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world)
+{
+    const float to[3] = {world.x, world.y, world.z};
+    for (int row = 0; row < 3; ++row) {
+        float* r = placed->toWorld.rows[row];
+        r[3] = (float)((double)r[0] * (double)own.x + (double)r[1] * (double)own.y +
+                       (double)r[2] * (double)own.z + (double)r[3] - (double)to[row]);
+    }
+    placed->toObject = invert(&placed->toWorld, determinant(&placed->toWorld));
+    boundObject(placed, vtSub(placed->mesh->boundsMin, own), vtSub(placed->mesh->boundsMax, own));
+}
+
 uint32_t vtScene_Relief(const vtScene* scene)
 {
     uint32_t mesh = 0;
@@ -449,7 +460,7 @@ void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boundsMax)
             continue;
         }
         vtPlacedObject placed = {.mesh = &scene->meshes[object->mesh], .toWorld = object->toWorld};
-        boundObject(&placed);
+        boundObject(&placed, placed.mesh->boundsMin, placed.mesh->boundsMax);
         low = (vtVec3){fminf(low.x, placed.low.x), fminf(low.y, placed.low.y), fminf(low.z, placed.low.z)};
         high = (vtVec3){fmaxf(high.x, placed.high.x), fmaxf(high.y, placed.high.y),
                         fmaxf(high.z, placed.high.z)};

@@ -31,7 +31,7 @@ export function decode(pixels, size = 0) {
 }
 
 /** Degrees between two direction images, pixel by pixel. */
-export function angles(a, b) {
+function angles(a, b) {
   const found = new Float64Array(a.length / 3);
   for (let i = 0; i < found.length; ++i) {
     const [p, q] = [a, b].map((from) => from.subarray(3 * i, 3 * i + 3));
@@ -50,8 +50,8 @@ export function background(truth) {
   return count;
 }
 
-/** How far decoded background pixels are from the camera's rays, whose directions are known. */
-export function calibrate(directions, truth, size, { eye, target, fov }) {
+/** Directions of the rays through the pixels' centres. */
+export function cameraRays(size, { eye, target, fov }) {
   const subtract = (a, b) => a.map((value, k) => value - b[k]);
   const unit = (a) => a.map((value) => value / Math.hypot(...a));
   const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
@@ -66,12 +66,37 @@ export function calibrate(directions, truth, size, { eye, target, fov }) {
       unit(forward.map((value, k) => value + x * right[k] + y * up[k])).forEach((value, k) => (rays[3 * (j * size + i) + k] = value));
     }
   }
-  // Pixels at the silhouette may go either way: only those whose neighbours are background as well.
-  const off = [...angles(directions, rays)].filter((_, i) => {
-    const x = i % size, y = Math.floor(i / size);
-    return x > 0 && y > 0 && x < size - 1 && y < size - 1 && [0, -1, 1, -size, size].every((step) => isBackground(truth, i + step));
-  }).sort((a, b) => a - b);
+  return rays;
+}
+
+/** Whether a pixel and its neighbours are all background, or, not wanted, none is: the silhouette is the rasterizer's to decide. */
+function isInside(truth, size, i, wanted) {
+  const x = i % size, y = Math.floor(i / size);
+  return x > 0 && y > 0 && x < size - 1 && y < size - 1 && [0, -1, 1, -size, size].every((step) => isBackground(truth, i + step) === wanted);
+}
+
+/** How far decoded background pixels are from the camera's rays, whose directions are known. */
+export function calibrate(directions, truth, rays, size) {
+  const off = [...angles(directions, rays)].filter((_, i) => isInside(truth, size, i, true)).sort((a, b) => a - b);
   return { median: off[Math.floor(off.length / 2)] ?? null, largest: off[off.length - 1] ?? null };
+}
+
+const smooth = 15; // degrees
+
+/**
+ * Whether light through a pixel and through its neighbours leaves in about the same direction. Rasterizers place a point
+ * to a sixteenth of a pixel or better: there that is 1 degree, elsewhere, as where one surface ends before another, a pixel
+ * may go either way.
+ */
+function isSmooth(truth, size, i) {
+  const [here, ...around] = [0, -1, 1, -size, size].map((step) => truth.subarray(3 * (i + step), 3 * (i + step) + 3));
+  return isInside(truth, size, i, false) && around.every((there) => angles(here, there)[0] <= smooth);
+}
+
+/** How often a is within 2 degrees of b, of the judged pixels where the truth is smooth, but those lost in b. */
+export function agreement(a, b, truth, judged, size) {
+  const off = [...angles(a, b)].filter((_, i) => judged[i] && b[3 * i] !== 2 && isSmooth(truth, size, i));
+  return { share: off.filter((angle) => angle <= 2).length / off.length, count: off.length };
 }
 
 /** Shares of the judged pixels that are right within 1 and 5 degrees, and the median angle. */

@@ -1,46 +1,13 @@
 // The page of glass.mjs: every contestant has a canvas and a context of its own, outside the document so that nothing
-// is composited. The peers are drei's and three.js's own components, driven by React Three Fiber one frame at a time;
-// Vitrine is driven by the calls that <vitrine-viewer> makes.
-import { MeshRefractionMaterial } from '@react-three/drei/core/MeshRefractionMaterial.js';
-import { MeshTransmissionMaterial } from '@react-three/drei/core/MeshTransmissionMaterial.js';
-import { createRoot, extend } from '@react-three/fiber';
-import { createElement, useLayoutEffect } from 'react';
+// is composited. The peers are in glass-peers.js, which is loaded where one takes part; Vitrine is driven by the calls
+// that <vitrine-viewer> makes.
 import * as THREE from 'three';
 import { HDRLoader } from 'three/examples/jsm/loaders/HDRLoader.js';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { mergeGeometries, mergeVertices } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 import { Viewer, loadCore } from 'vitrine-core'; // build/web/element/core.js
 
-extend(THREE);
-
-// three 0.187 has no such chunk any more; drei 10.7.9's MeshRefractionMaterial includes it and uses nothing of it.
-THREE.ShaderChunk.cube_uv_reflection_fragment ??= '';
-
-const smooth = { chromaticAberration: 0, anisotropicBlur: 0 }; // the scene has neither dispersion nor roughness
-
-/** Each gets { ior, thickness, reflects, environment } and returns its material. */
-const peers = {
-  physical: ({ ior, thickness, reflects }) =>
-    createElement('meshPhysicalMaterial', { transmission: 1, roughness: 0, ior, thickness, specularIntensity: Number(reflects) }),
-  'physical-double': ({ ior, thickness, reflects }) =>
-    createElement('meshPhysicalMaterial', { transmission: 1, roughness: 0, ior, thickness, specularIntensity: Number(reflects), side: THREE.DoubleSide }),
-  transmission: ({ ior, thickness, reflects }) =>
-    createElement(MeshTransmissionMaterial, { ...smooth, ior, thickness, specularIntensity: Number(reflects) }),
-  'transmission-default': ({ ior, thickness, reflects }) =>
-    createElement(MeshTransmissionMaterial, { ior, thickness, specularIntensity: Number(reflects) }),
-  'transmission-backside': ({ ior, thickness, reflects }) =>
-    createElement(MeshTransmissionMaterial, { ...smooth, ior, thickness, backside: true, backsideThickness: thickness, specularIntensity: Number(reflects) }),
-  refraction: ({ ior, environment }) => createElement(MeshRefractionMaterial, { ior, bounces: 4, envMap: environment }),
-};
-
 const fetchBytes = async (url) => new Uint8Array(await (await fetch(url)).arrayBuffer());
-
-function base64(array) {
-  const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-  let text = '';
-  for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
-  return btoa(text);
-}
 
 /** Blocks until the GPU has drawn the frame: the answer of readPixels needs it. (gl.finish only flushes in Chromium.) */
 function finish(gl) {
@@ -98,123 +65,40 @@ async function loadGeometry(url) {
   return { geometry, triangles: index.count / 3, hasNormals, meanChord: (4 * Math.abs(volume)) / area };
 }
 
-/** An environment whose colour says its direction: 0.5 + 0.5 d, half floats, bottom row first. */
-function directionTexture() {
-  const width = 2048, height = 1024;
-  const data = new Uint16Array(4 * width * height);
-  for (let j = 0; j < height; ++j) {
-    const elevation = ((j + 0.5) / height - 0.5) * Math.PI;
-    for (let i = 0; i < width; ++i) {
-      const azimuth = ((i + 0.5) / width - 0.5) * 2 * Math.PI;
-      const direction = [Math.cos(elevation) * Math.cos(azimuth), Math.sin(elevation), Math.cos(elevation) * Math.sin(azimuth)];
-      direction.forEach((value, k) => (data[4 * (j * width + i) + k] = THREE.DataUtils.toHalfFloat(0.5 + 0.5 * value)));
-      data[4 * (j * width + i) + 3] = THREE.DataUtils.toHalfFloat(1);
-    }
-  }
-  const texture = new THREE.DataTexture(data, width, height, THREE.RGBAFormat, THREE.HalfFloatType);
-  texture.minFilter = texture.magFilter = THREE.LinearFilter;
-  texture.wrapS = THREE.RepeatWrapping;
-  texture.mapping = THREE.EquirectangularReflectionMapping;
-  texture.needsUpdate = true;
-  return texture;
-}
-
-function Scene({ geometry, name, ready, settings }) {
-  useLayoutEffect(ready);
-  return createElement('mesh', { geometry }, peers[name](settings));
-}
-
-class Peer {
-  #root;
-  #store;
-  #time = 0;
-  #environments;
-
+/** A technique as by default, or, named with -plain, never reflecting. */
+class VitrineContestant {
   constructor(name, shared) {
     this.name = name;
+    this.technique = name.replace(/-plain$/, '');
+    this.canReflect = this.technique === name;
     this.shared = shared;
     this.canvas = document.createElement('canvas');
   }
 
   async open() {
-    const { size, camera } = this.shared;
-    const distance = Math.hypot(...camera.eye.map((value, k) => value - camera.target[k]));
-    this.#root = createRoot(this.canvas);
-    await this.#root.configure({
-      frameloop: 'never', flat: true, dpr: 1, // flat: no tone mapping
-      size: { width: size, height: size, top: 0, left: 0 },
-      gl: { antialias: false, powerPreference: 'high-performance' }, // nobody here has antialiasing
-      camera: { position: camera.eye, fov: camera.fov, near: 0.01 * distance, far: 10 * distance },
-      onCreated: ({ camera: made }) => made.lookAt(...camera.target),
-    });
-    this.#environments = { picture: this.shared.environment.clone(), directions: this.shared.directions.clone() };
-    for (const texture of Object.values(this.#environments)) texture.needsUpdate = true;
-    this.geometry = this.shared.geometry.clone();
-    await this.show({ thickness: 0, reflects: true, what: 'picture' });
-  }
-
-  get gl() {
-    return this.#store.getState().gl.getContext();
-  }
-
-  /** what: 'picture' or 'directions'. reflects: with Fresnel's reflection of the environment, the material's default. */
-  async show({ thickness, reflects, what }) {
-    const environment = this.#environments[what];
-    const { geometry, name, shared: { ior } } = this;
-    await new Promise((ready) => {
-      this.#store = this.#root.render(createElement(Scene, { geometry, name, ready, settings: { ior, thickness, reflects, environment } }));
-    });
-    const { scene } = this.#store.getState();
-    scene.background = environment;
-    scene.environment = reflects ? environment : null;
-    this.draw();
-    this.draw();
-  }
-
-  draw() {
-    this.#time += 1 / 60;
-    this.#store.getState().advance(this.#time);
-  }
-
-  /** What the last show has set up, as it is before the canvas makes bytes of it: RGBA floats, bottom row first. */
-  read() {
-    const { size } = this.shared;
-    const { gl: renderer, scene, camera } = this.#store.getState();
-    const target = new THREE.WebGLRenderTarget(size, size, { type: THREE.FloatType, colorSpace: THREE.LinearSRGBColorSpace });
-    this.draw();
-    renderer.setRenderTarget(target);
-    renderer.render(scene, camera);
-    const pixels = new Float32Array(4 * size * size);
-    renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
-    renderer.setRenderTarget(null);
-    target.dispose();
-    return base64(pixels);
-  }
-}
-
-class VitrineContestant {
-  constructor(technique, shared) {
-    this.name = technique;
-    this.shared = shared;
-    this.canvas = document.createElement('canvas');
-  }
-
-  async open() {
-    const { size, ior, files, core } = this.shared;
+    const { size, files, core } = this.shared;
     this.canvas.width = this.canvas.height = size;
     this.viewer = new Viewer(core, this.canvas, () => false);
     this.#must(this.viewer.attemptFile('OpenModel', { name: 'model.glb', contents: files.model }));
-    this.#must(this.viewer.setGlass({ technique: this.name, ior, preset: 'medium', output: 'picture', layer: 0, exposure: 0, transparent: false, samples: 1, lessened: false }));
+    this.#setGlass(true);
     this.#must(this.viewer.attempt('Resize', size, size));
-    await this.show({ what: 'picture' });
+    await this.show({ reflects: true, what: 'picture' });
   }
 
   get gl() {
     return this.viewer.gl;
   }
 
-  async show({ what }) {
+  #setGlass(reflects) {
+    const { technique, canReflect, shared: { ior } } = this;
+    const fresnel = reflects && canReflect ? 'on' : 'off'; // off: strict paths, whose directions can be compared
+    this.#must(this.viewer.setGlass({ technique, ior, fresnel, preset: 'medium', output: 'picture', layer: 0, exposure: 0, transparent: false, samples: 1, lessened: false }));
+  }
+
+  /** reflects: with Fresnel reflection, the default; what: 'picture' or 'directions'. */
+  async show({ reflects, what }) {
     const { files } = this.shared;
+    this.#setGlass(reflects);
     const contents = what === 'picture' ? files.environment : files.directions;
     this.#must(this.viewer.attemptFile('OpenEnvironment', { name: 'environment.hdr', contents }));
     this.draw();
@@ -251,6 +135,12 @@ class Empty {
 const contestants = new Map();
 let shared;
 
+async function makePeer(name) {
+  const { Peer, directionTexture } = await import('./glass-peers.js');
+  shared.directions ??= directionTexture();
+  return new Peer(name, shared);
+}
+
 window.bench = {
   /** Loads what all share. @returns what the report says about it */
   async open() {
@@ -259,7 +149,7 @@ window.bench = {
       fetchBytes('/environment.hdr'), fetchBytes('/directions.hdr'), loadCore({ locateFile: (name) => `/${name}` }),
     ]);
     environment.mapping = THREE.EquirectangularReflectionMapping;
-    shared = { core, environment, directions: directionTexture(), geometry: mesh.geometry,
+    shared = { core, environment, geometry: mesh.geometry,
       files: { model, environment: hdr, directions } };
     const gl = document.createElement('canvas').getContext('webgl2');
     const { triangles, hasNormals, meanChord } = mesh;
@@ -277,7 +167,7 @@ window.bench = {
   /** @returns {Promise<string>} why it cannot take part, or '' */
   async add(kind, name) {
     try {
-      const contestant = kind === 'empty' ? new Empty(shared) : kind === 'peer' ? new Peer(name, shared) : new VitrineContestant(name, shared);
+      const contestant = kind === 'empty' ? new Empty(shared) : kind === 'peer' ? await makePeer(name) : new VitrineContestant(name, shared);
       await contestant.open();
       contestants.set(`${kind}:${name}`, contestant);
       return '';

@@ -17,7 +17,11 @@ const titles = {
   'transmission-backside': 'drei MeshTransmissionMaterial, no dispersion, no blur, backside',
   refraction: 'drei MeshRefractionMaterial, 4 bounces',
 };
-export const titleOf = ({ kind, name }) => (kind === 'vitrine' ? `Vitrine ${name}` : titles[name]);
+/** A technique without Fresnel reflection is named with -plain. */
+export const isPlain = (name) => name.endsWith('-plain');
+export const techniqueOf = (name) => name.replace(/-plain$/, '');
+const vitrineTitle = (name) => `Vitrine ${techniqueOf(name)}, ${isPlain(name) ? 'no reflection' : 'its defaults'}`;
+export const titleOf = ({ kind, name }) => (kind === 'vitrine' ? vitrineTitle(name) : titles[name]);
 
 const angle = (value) => (value === null ? 'no such pixel' : `${value.toFixed(3)}°`);
 const percent = (share) => `${(100 * share).toFixed(1)} %`;
@@ -31,18 +35,19 @@ export function markdown(report) {
     const plain = entry.plainMilliseconds === undefined ? '–' : `${entry.plainMilliseconds.toFixed(1)} ms`;
     const time = `${entry.milliseconds.toFixed(1)} ms | ${plain} | ${entry.fastest.toFixed(1)}–${entry.slowest.toFixed(1)} ms | ${entry.ratio === null ? '–' : entry.ratio.toFixed(2)}`;
     const quality = entry.kind === 'empty' ? '– | – | – | – | – | –'
-      : [percent(entry.within1), percent(entry.within5), `${entry.medianAngle.toFixed(2)}°`, entry.flip.toFixed(3), entry.flipReflecting.toFixed(3),
+      : [percent(entry.within1), percent(entry.within5), `${entry.medianAngle.toFixed(2)}°`, entry.flip.toFixed(3), entry.flipReflecting?.toFixed(3) ?? '–',
         entry.thickness === null ? '–' : entry.thickness.toFixed(3)].join(' | ');
     return `| ${titleOf(entry)} | ${time} | ${quality} |`;
   });
   const calibrations = contestants.filter(({ kind }) => kind === 'peer').map(({ name, calibration }) => `${name} ${angle(calibration.median)} (at most ${angle(calibration.largest)})`);
-  const natives = contestants.filter(({ kind }) => kind === 'vitrine').map(({ name, asNative }) => `${name} ${percent(asNative)}`);
+  const natives = contestants.filter(({ kind }) => kind === 'vitrine').map(({ name, asNative, comparedPixels }) => `${name} ${percent(asNative)} of ${comparedPixels}`);
+  const packages = Object.entries(versions).map(([name, version]) => `${name} ${version}`).join(', ');
   return `${report.date}; ${report.renderer}; Chromium ${report.browser}; ${report.processors} × ${report.processor || 'processor'}${report.threads === null ? '' : `, LP_NUM_THREADS ${report.threads}`}
 
 \`${report.model}\` (${report.triangles} triangles, normals ${report.normals}), \`${report.environment}\`, ${report.size} × ${report.size} pixels, index ${report.ior},
-eye ${numbers(camera.eye)}, target ${numbers(camera.target)}, ${camera.fov}°; ${report.rounds} rounds in turns, medians. three ${versions.three}, drei ${versions['@react-three/drei']},
-fiber ${versions['@react-three/fiber']}, three-mesh-bvh ${versions['three-mesh-bvh']}.
-
+eye ${numbers(camera.eye)}, target ${numbers(camera.target)}, ${camera.fov}°; ${report.rounds} rounds in turns, medians.
+${packages && `Packages: ${packages}.
+`}
 | glass | a frame | not reflecting | fastest–slowest | ratio | within 1° | within 5° | median | FLIP | FLIP, reflecting | thickness |
 |---|---|---|---|---|---|---|---|---|---|---|
 ${rows.join('\n')}
@@ -52,7 +57,7 @@ A frame: each as it is by default; "not reflecting": those that reflect, without
 with Fresnel reflection, ${report.samples} paths a pixel. Thickness: ${report.thicknessGiven ? 'as given' : 'what suited the material best of five'}; the mean chord is ${report.meanChord.toFixed(3)}.
 
 Decoded background pixels are off by, median: ${calibrations.join(', ') || '–'}. Vitrine's directions are the native program's; in the browser
-they are the same within 2° (8 bits a channel) in: ${natives.join(', ') || '–'} of those pixels.
+they are the same within 2° (8 bits a channel), of those pixels where the truth changes by at most 15° to each neighbour, in: ${natives.join(', ') || '–'}.
 `;
 }
 

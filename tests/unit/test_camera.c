@@ -120,8 +120,6 @@ static void defaultFrameIsValid(void** state)
     assert_ok(vtValidateFrame(&frame, &error), error);
     vtFrame resolved = vtResolveFrame(&frame);
     assert_int_equal(frame.technique, vt_techniqueExact);
-    assert_int_equal(resolved.layers, 8);
-    assert_int_equal(resolved.cubeSize, 128);
     frame.technique = vt_techniqueLayered;
     resolved = vtResolveFrame(&frame);
     assert_int_equal(resolved.layers, 4);
@@ -149,8 +147,6 @@ static void framesOutOfRangeAreNamed(void** state)
     EXPECT(f.layers = -1, "layers is -1; it must be from 0 to 16");
     EXPECT(f.layers = 17, "layers is 17");
     EXPECT(f.steps = -1, "steps");
-    EXPECT(f.cubeSize = 100, "cube-size is 100; it must be a power of two");
-    EXPECT(f.cubeSize = 2048, "cube-size is 2048; it must be from 32 to 1024");
     EXPECT(f.preset = vt_presetCount, "preset is 3");
     EXPECT(f.refine = 33, "refine");
     EXPECT(f.maxEvents = 65, "max-events");

@@ -57,19 +57,21 @@ static void evaluate(Fixture* fixture, const vtChunk* const* chunks, uint32_t* r
     for (int i = 0; chunks[i] != NULL; ++i) {
         def.fragment[i + 1] = chunks[i];
     }
-    GLuint program, framebuffer = 0;
+    GLuint framebuffer = 0;
+    vtProgram program = {0};
     vtTexture target = {0};
     vtTexture_Resize(&target, gl, GL_RGBA32UI, size, size, 0);
     vtAttachment color = {&target, 0};
-    assert_ok(vtCreateProgram(gl, &def, &program, &error), error);
+    vtProgram_Start(&program, gl, &def);
+    assert_ok(vtProgram_Finish(&program, gl, &error), error);
     assert_ok(vtMakeFramebuffer(gl, "test", &color, 1, NULL, &framebuffer, &error), error);
     vtBindFramebuffer(gl, framebuffer, size, size);
-    gl->UseProgram(program);
+    gl->UseProgram(program.name);
     gl->BindVertexArray(fixture->vertexArray);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
     gl->ReadPixels(0, 0, size, size, GL_RGBA_INTEGER, GL_UNSIGNED_INT, results);
     assert_ok(vtCheckGL(gl, "evaluating", &error), error);
-    gl->DeleteProgram(program);
+    vtProgram_Destroy(&program, gl);
     vtDestroyFramebuffers(gl, &framebuffer, 1);
     vtTexture_Destroy(&target, gl);
 }

@@ -8,9 +8,11 @@
 #include "gl/image_array.h"
 #include "gl/lighting_texture.h"
 #include "gl/program.h"
+#include "gl/scene_buffer.h"
 #include "gl/uniforms.h"
+#include "object_table.h"
+#include "scene/hierarchy.h"
 #include "scene/shading.h"
-#include "scene/triangles.h"
 #include "shaders.h"
 #include "testing.h"
 
@@ -350,7 +352,10 @@ enum { caseSide = 64, objects = 6 };
 typedef struct Gpu {
     vtContext context;
     vtGL gl;
-    vtTexture objects, triangles, attributes, images, lighting, environment;
+    vtSceneBuffer scene;
+    vtTexture cases, lighting, environment;
+    vtMesh leaves[3];    ///< the scene's meshes, whose triangles are those of the records, two a record
+    uint32_t records[3]; ///< of each mesh
     GLuint vertexArray, uniforms;
 } Gpu;
 
@@ -366,31 +371,16 @@ static void createGpu(Gpu* gpu)
 
 static void destroyGpu(Gpu* gpu)
 {
-    vtTexture* textures[] = {&gpu->objects, &gpu->triangles, &gpu->attributes,
-                             &gpu->images,  &gpu->lighting,  &gpu->environment};
-    for (int i = 0; i < 6; ++i) {
-        vtTexture_Destroy(textures[i], &gpu->gl);
+    vtSceneBuffer_Destroy(&gpu->scene, &gpu->gl);
+    vtTexture_Destroy(&gpu->cases, &gpu->gl);
+    vtTexture_Destroy(&gpu->lighting, &gpu->gl);
+    vtTexture_Destroy(&gpu->environment, &gpu->gl);
+    for (int m = 0; m < 3; ++m) {
+        free(gpu->leaves[m].indices);
     }
     gpu->gl.DeleteVertexArrays(1, &gpu->vertexArray);
     gpu->gl.DeleteBuffers(1, &gpu->uniforms);
     vtDestroyContext(&gpu->context);
-}
-
-static uint32_t bitsOf(float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-/// Of numbers from 0 to 1; those below 1/16384 become 0.
-static uint32_t half(float value)
-{
-    int exponent;
-    const float part = frexpf(value, &exponent);
-    return value < 1.0f / 16384.0f
-               ? 0
-               : ((uint32_t)(exponent + 14) << 10) + (uint32_t)lrintf((2.0f * part - 1.0f) * 1024.0f);
 }
 
 /// A square, four toruses and a sphere of all that materials can be, placed every way.
@@ -468,68 +458,57 @@ static vtScene manyObjects(int imageSide)
     return scene;
 }
 
-/// The textures as shaders_es3/constants.h has them; triangles and attributes of one mesh after the other.
-static void uploadScene(Gpu* gpu, const vtScene* scene, const vtPlacedObject* placed)
+/// As the renderer does; and what the records hold, for the twin on the CPU.
+static void uploadScene(Gpu* gpu, const vtScene* scene)
 {
-    const vtGL* gl = &gpu->gl;
     vtError error;
-    uint32_t first[3], firstAttribute[3], count = 0, attributeCount = 0;
-    uint32_t* triangles = NULL;
-    uint32_t* attributes = NULL;
-    vtTexture_Destroy(&gpu->objects, gl);
-    vtTexture_Destroy(&gpu->triangles, gl);
-    vtTexture_Destroy(&gpu->attributes, gl);
-    for (uint32_t m = 0; m < 3; ++m) {
-        const vtMesh* mesh = &scene->meshes[m];
-        const uint32_t more = mesh->indexCount / 3;
-        uint32_t* records = vtCreateTriangleRecords(mesh);
-        first[m] = count;
-        triangles = realloc(triangles, (count + more) * 16 * sizeof *triangles);
-        memcpy(triangles + 16 * (size_t)count, records, more * 16 * sizeof *triangles);
-        free(records);
-        count += more;
-        firstAttribute[m] = VT_NO_TRIANGLE;
-        if (mesh->texcoords == NULL && mesh->colors == NULL) {
-            continue;
+    const vtFrame frame = vtDefaultFrame();
+    vtSceneBuffer_Destroy(&gpu->scene, &gpu->gl);
+    assert_ok(vtSceneBuffer_Create(&gpu->scene, &gpu->gl, scene, &error), error);
+    vtWriteObjectTable(&gpu->scene, &frame);
+    vtSceneBuffer_SetTable(&gpu->scene, &gpu->gl);
+    for (int m = 0; m < 3; ++m) {
+        vtHierarchy hierarchy;
+        vtMesh* leaves = &gpu->leaves[m];
+        assert_ok(vtCreateHierarchy(&scene->meshes[m], &hierarchy, &error), error);
+        free(leaves->indices);
+        *leaves = scene->meshes[m];
+        gpu->records[m] = hierarchy.recordCount;
+        leaves->indexCount = 6 * hierarchy.recordCount;
+        leaves->indices = malloc(leaves->indexCount * sizeof *leaves->indices);
+        for (uint32_t i = 0; i < leaves->indexCount; ++i) {
+            static const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
+            leaves->indices[i] = hierarchy.corners[i / 6 * 4 + corners[i % 6]];
         }
-        firstAttribute[m] = attributeCount;
-        attributes = realloc(attributes, (attributeCount + more) * 12 * sizeof *attributes);
-        for (uint32_t i = 0; i < 3 * more; ++i) {
-            const float* uv = mesh->texcoords + 2 * (size_t)mesh->indices[i];
-            const float white[3] = {1.0f, 1.0f, 1.0f};
-            const float* c = mesh->colors != NULL ? mesh->colors + 3 * (size_t)mesh->indices[i] : white;
-            uint32_t* to = attributes + 12 * (size_t)attributeCount + 4 * (size_t)i;
-            to[0] = bitsOf(uv[0]);
-            to[1] = bitsOf(uv[1]);
-            to[2] = half(c[0]) | half(c[1]) << 16;
-            to[3] = half(c[2]);
-        }
-        attributeCount += more;
+        vtDestroyHierarchy(&hierarchy);
     }
-    vtTexture_UploadRecords(&gpu->triangles, gl, triangles, (int)count, 4, VT_TRIANGLES_A_ROW);
-    vtTexture_UploadRecords(&gpu->attributes, gl, attributes, (int)attributeCount, 3, VT_TRIANGLES_A_ROW);
-    free(triangles);
-    free(attributes);
+}
 
-    static uint32_t rows[objects][VT_OBJECT_TEXELS][4];
-    for (int i = 0; i < objects; ++i) {
-        const vtMaterial* m = placed[i].material;
-        for (int k = 0; k < 12; ++k) {
-            rows[i][VT_OBJECT_TRANSFORM + k / 4][k % 4] = bitsOf(placed[i].toObject.rows[k / 4][k % 4]);
-        }
-        const uint32_t color[4] = {bitsOf(m->baseColor.x), bitsOf(m->baseColor.y), bitsOf(m->baseColor.z),
-                                   firstAttribute[placed[i].meshIndex]};
-        const uint32_t surface[4] = {bitsOf(m->metallic), bitsOf(m->roughness), bitsOf(m->checker), 0};
-        const uint32_t emissive[4] = {bitsOf(m->emissive.x), bitsOf(m->emissive.y), bitsOf(m->emissive.z), 0};
-        const uint32_t images[4] = {(uint32_t)m->baseColorImage, (uint32_t)m->metallicRoughnessImage,
-                                    first[placed[i].meshIndex], 0};
-        memcpy(rows[i][VT_OBJECT_COLOR], color, sizeof color);
-        memcpy(rows[i][VT_OBJECT_SURFACE], surface, sizeof surface);
-        memcpy(rows[i][VT_OBJECT_EMISSIVE], emissive, sizeof emissive);
-        memcpy(rows[i][VT_OBJECT_IMAGES], images, sizeof images);
+/// One of its triangles that have an area; 2 * record, plus one for the second of a pair.
+static uint32_t pickTriangle(const Gpu* gpu, uint32_t mesh, uint32_t number)
+{
+    uint32_t triangle = number % (2 * gpu->records[mesh]);
+    const uint32_t* indices = gpu->leaves[mesh].indices;
+    while (indices[3 * triangle] == VT_NO_TRIANGLE ||
+           indices[3 * triangle + 1] == indices[3 * triangle + 2]) {
+        triangle = (triangle + 1) % (2 * gpu->records[mesh]);
     }
-    vtTexture_UploadRecords(&gpu->objects, gl, &rows[0][0][0], objects, VT_OBJECT_TEXELS, 1);
-    assert_ok(vtImageArray_Upload(&gpu->images, gl, scene, &error), error);
+    return triangle;
+}
+
+/// An object and its triangle for each case.
+static void uploadCases(Gpu* gpu, const vtPlacedObject* placed, uint32_t (*cases)[4])
+{
+    for (uint32_t i = 0; i < caseSide * caseSide; ++i) {
+        const uint32_t mesh = placed[i % objects].meshIndex;
+        cases[i][0] = i % objects;
+        cases[i][1] = pickTriangle(gpu, mesh, hash(i + 300000u));
+        cases[i][2] = 2 * gpu->scene.meshRecords[mesh].first + cases[i][1];
+    }
+    vtTexture_Resize(&gpu->cases, &gpu->gl, GL_RGBA32UI, caseSide, caseSide, 0);
+    vtTexture_Bind(&gpu->cases, &gpu->gl, 0);
+    gpu->gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, caseSide, caseSide, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                          cases);
 }
 
 /// As src/passes/present.c does.
@@ -549,7 +528,8 @@ static void uploadEnvironment(Gpu* gpu, const vtEnvironment* environment, const 
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     assert_ok(vtLightingTexture_Upload(&gpu->lighting, gl, lighting, &error), error);
-    const vtFrameUniforms uniforms = {.output = {0, 0, (int)environment->kind, 0}};
+    const vtFrameUniforms uniforms = {.scene = {0, objects, 0, 0},
+                                      .output = {0, 0, (int)environment->kind, 0}};
     gl->BindBufferBase(GL_UNIFORM_BUFFER, VT_FRAME_BINDING, gpu->uniforms);
     gl->BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STATIC_DRAW);
 }
@@ -563,60 +543,62 @@ static void evaluate(Gpu* gpu, const char* source, uint32_t* results)
     const vtProgramDef def = {
         .name = "test",
         .vertex = {&vtChunk_screen_vert},
-        .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_triangles,
+        .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_records,
                      &vtChunk_lighting, &vtChunk_shading, &body},
-        .samplers = {"u_objects", "u_triangles", "u_attributes", "u_images", "u_lighting", "u_environment"},
+        .samplers = {"u_objects", "u_records", "u_attributes", "u_images", "u_lighting", "u_environment",
+                     "u_cases"},
     };
-    GLuint program, framebuffer = 0;
+    GLuint framebuffer = 0;
+    vtProgram program = {0};
     vtTexture target = {0};
     vtTexture_Resize(&target, gl, GL_RGBA32UI, caseSide, caseSide, 0);
     const vtAttachment color = {&target, 0};
-    assert_ok(vtCreateProgram(gl, &def, &program, &error), error);
+    vtProgram_Start(&program, gl, &def);
+    assert_ok(vtProgram_Finish(&program, gl, &error), error);
     assert_ok(vtMakeFramebuffer(gl, "test", &color, 1, NULL, &framebuffer, &error), error);
     vtBindFramebuffer(gl, framebuffer, caseSide, caseSide);
-    gl->UseProgram(program);
+    gl->UseProgram(program.name);
     gl->BindVertexArray(gpu->vertexArray);
-    const vtTexture* textures[] = {&gpu->objects, &gpu->triangles, &gpu->attributes,
-                                   &gpu->images,  &gpu->lighting,  &gpu->environment};
-    for (int i = 0; i < 6; ++i) {
-        vtTexture_Bind(textures[i], gl, i);
-    }
+    const vtTexture* textures[] = {&gpu->scene.table,  &gpu->scene.records, &gpu->scene.attributes,
+                                   &gpu->scene.images, &gpu->lighting,      &gpu->environment,
+                                   &gpu->cases};
+    vtBindTextures(gl, textures, sizeof textures / sizeof textures[0]);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
     gl->ReadPixels(0, 0, caseSide, caseSide, GL_RGBA_INTEGER, GL_UNSIGNED_INT, results);
     assert_ok(vtCheckGL(gl, "evaluating", &error), error);
-    gl->DeleteProgram(program);
+    vtProgram_Destroy(&program, gl);
     vtDestroyFramebuffers(gl, &framebuffer, 1);
     vtTexture_Destroy(&target, gl);
 }
 
 static const char shadeBody[] =
     "layout(location = 0) out uvec4 o_result;\n"
+    "uniform usampler2D u_cases;\n"
     "uint hash(uint x) { x ^= x >> 16; x *= 0x7feb352du; x ^= x >> 15;\n"
     "  x *= 0x846ca68bu; x ^= x >> 16; return x; }\n"
     "float unit(uint x) { return float(hash(x) >> 8) / 16777216.0; }\n"
     "vec3 onSphere(uint x) { float z = 2.0 * unit(x) - 1.0; float a = 6.2831853 * unit(x + 77777u);\n"
     "  float r = sqrt(1.0 - z * z); return vec3(r * cos(a), z, r * sin(a)); }\n"
     "void main() { uint i = uint(gl_FragCoord.y) * 64u + uint(gl_FragCoord.x);\n"
-    "  int object = int(i % 6u); float v = unit(i + 1000u); float u = (1.0 - v) * unit(i + 20000u);\n"
-    "  uint first = objectBits(object, VT_OBJECT_IMAGES).z;\n" // the square comes first, others have more
-    "  uint triangle = first + hash(i + 300000u) % (first == 0u ? 2u : 900u);\n"
-    "  vec3 light = shadeSurface(object, triangle, vec3(1.0 - u - v, u, v), onSphere(i), 0.0);\n"
+    "  float v = unit(i + 1000u); float u = (1.0 - v) * unit(i + 20000u);\n"
+    "  uvec4 c = texelFetch(u_cases, ivec2(gl_FragCoord.xy), 0);\n"
+    "  vec3 light = shadeSurface(int(c.x), RecordHit(0.0, c.z, vec2(u, v)), onSphere(i), 0.0);\n"
     "  o_result = uvec4(floatBitsToUint(light), 0u); }\n";
 
 /// How many of the cases differ by more than 2/255, of white or of the light itself where that is brighter.
 static int countDifferent(Gpu* gpu, const vtScene* scene, const vtPlacedObject* placed,
                           const vtLighting* lighting)
 {
-    static uint32_t results[4 * caseSide * caseSide];
+    static uint32_t results[4 * caseSide * caseSide], cases[caseSide * caseSide][4];
+    uploadCases(gpu, placed, cases);
     evaluate(gpu, shadeBody, results);
     int different = 0;
     float sum = 0.0f;
     for (uint32_t i = 0; i < caseSide * caseSide; ++i) {
         const float v = unit(i + 1000u), u = (1.0f - v) * unit(i + 20000u);
-        const vtPlacedObject* object = &placed[i % objects];
-        const uint32_t triangle = hash(i + 300000u) % (object->meshIndex == 0 ? 2u : 900u);
-        assert_true(3 * triangle < object->mesh->indexCount);
-        const vtVec3 cpu = vtShadeSurface(scene, object, lighting, triangle, u, v, onSphere(i));
+        vtPlacedObject object = placed[i % objects];
+        object.mesh = &gpu->leaves[object.meshIndex];
+        const vtVec3 cpu = vtShadeSurface(scene, &object, lighting, cases[i][1], u, v, onSphere(i));
         float gpuLight[3];
         memcpy(gpuLight, results + 4 * (size_t)i, sizeof gpuLight);
         const float apart = difference(cpu, vtMakeVec3(gpuLight)) / fmaxf(1.0f, vtLength(cpu));
@@ -640,10 +622,10 @@ static void shadersAreTheSame(void** state)
         vtPlacedObject* placed;
         uint32_t glassCount;
         assert_ok(vtPlaceObjects(&scene, &placed, &glassCount, &error), error);
-        uploadScene(&gpu, &scene, placed);
-        assert_int_equal(gpu.images.width, 64);
-        assert_int_equal(gpu.images.layers, 3);
-        assert_int_equal(vtTexture_Bytes(&gpu.images), 4 * 64 * 64 * 3 * 4 / 3);
+        uploadScene(&gpu, &scene);
+        assert_int_equal(gpu.scene.images.width, 64);
+        assert_int_equal(gpu.scene.images.layers, 3);
+        assert_int_equal(vtTexture_Bytes(&gpu.scene.images), 4 * 64 * 64 * 3 * 4 / 3);
         vtEnvironment environments[] = {builtIn("checker"), builtIn("studio"), builtIn("sky"),
                                         imageEnvironment(128, 64, true)};
         for (int i = 0; i < 4; ++i) {
@@ -685,21 +667,21 @@ static void farSurfacesShowTheMeanOfTheImage(void** state)
     while (placed[object].object != 0) {
         ++object;
     }
-    uploadScene(&gpu, &scene, placed);
+    uploadScene(&gpu, &scene);
     vtEnvironment environment = imageEnvironment(8, 4, false);
     vtLighting lighting = lightingOf(&environment);
     uploadEnvironment(&gpu, &environment, &lighting);
     static uint32_t results[4 * caseSide * caseSide];
+    const uint32_t triangle = 2 * gpu.scene.meshRecords[0].first + pickTriangle(&gpu, 0, 0);
     const float footprints[] = {0.05f, 0.12f, 100.0f};
     for (int k = 0; k < 3; ++k) {
         char source[512];
         snprintf(source, sizeof source,
                  "layout(location = 0) out uvec4 o_result;\n"
                  "void main() { vec2 w = 0.5 * (floor(gl_FragCoord.xy) + 0.5) / 64.0;\n"
-                 "  vec3 light = shadeSurface(%d, objectBits(%d, VT_OBJECT_IMAGES).z, "
-                 "vec3(1.0 - w.x - w.y, w), vec3(0.0, 0.0, -1.0), %f);\n"
+                 "  vec3 light = shadeSurface(%d, RecordHit(0.0, %uu, w), vec3(0.0, 0.0, -1.0), %f);\n"
                  "  o_result = uvec4(floatBitsToUint(light), 0u); }\n",
-                 object, object, (double)footprints[k]);
+                 object, triangle, (double)footprints[k]);
         evaluate(&gpu, source, results);
         float least = 1.0f, most = 0.0f;
         for (int i = 0; i < caseSide * caseSide; ++i) {
@@ -729,9 +711,9 @@ static void noImagesMakeAWhiteTexel(void** state)
     vtError error;
     createGpu(&gpu);
     const vtScene scene = {0};
-    assert_ok(vtImageArray_Upload(&gpu.images, &gpu.gl, &scene, &error), error);
-    assert_int_equal(gpu.images.width, 1);
-    assert_int_equal(gpu.images.layers, 1);
+    assert_ok(vtImageArray_Upload(&gpu.scene.images, &gpu.gl, &scene, &error), error);
+    assert_int_equal(gpu.scene.images.width, 1);
+    assert_int_equal(gpu.scene.images.layers, 1);
     destroyGpu(&gpu);
 }
 

@@ -170,8 +170,9 @@ function showScale() {
   if (scale === null) return;
   const { pixelWidth, pixelHeight, preset, layers, steps, maxEvents, renderedDpr, reportedDpr } = scale;
   const share = Math.round((100 * renderedDpr) / Math.min(2, reportedDpr ?? window.devicePixelRatio));
-  const search = store.state.technique === 'heightfield' ? `${maxEvents} events` : `${layers} layers · ${steps} steps`;
-  element('size').textContent = `${pixelWidth} × ${pixelHeight}${share < 100 ? ` (${share} %)` : ''} · ${search}`;
+  const { uses } = techniques.find(({ id }) => id === store.state.technique);
+  const search = Object.entries({ layers, steps, events: maxEvents }).filter(([id]) => uses.includes(id)).slice(0, 2).map(([id, count]) => ` · ${count} ${id}`).join('');
+  element('size').textContent = `${pixelWidth} × ${pixelHeight}${share < 100 ? ` (${share} %)` : ''}${search}`;
   element('size').title = `preset ${preset}, ${maxEvents} events`;
 }
 

@@ -10,8 +10,8 @@ export const techniques = [
   { id: 'wyman', name: 'Wyman', year: 2005, uses: ['ior'], summary: 'Two refractions, the distance between them guessed from two known ones.' },
   { id: 'oliveira', name: 'Oliveira & Brauwers', year: 2007, uses: ['ior', 'steps'], summary: 'Two refractions, the back side found by a search in its depth.' },
   { id: 'layered', name: 'Layered', year: 2014, uses: ['ior', 'layers', 'steps', 'events'], summary: 'Peeled layers searched for every refraction and total reflection.' },
-  { id: 'exact', name: 'Exact', year: 2026, uses: ['ior', 'layers', 'steps', 'events'], summary: 'Layers that know their triangles, peeled once for a mesh: every meeting with the glass is where it is.' },
-  { id: 'heightfield', name: 'Height field', year: 2008, uses: ['ior', 'events'], summary: 'As exact, but a relief by its heights alone: no triangles, nothing peeled.' },
+  { id: 'exact', name: 'Exact', year: 2026, uses: ['ior', 'events'], summary: 'Rays walk a hierarchy of the triangles: every meeting with the glass is where it is, reflections included.' },
+  { id: 'heightfield', name: 'Height field', year: 2008, uses: ['ior', 'events'], summary: 'As exact, but a relief by its heights alone: no triangles.' },
 ];
 
 /** Whether a technique peels layers from the eye, which can be shown. */
@@ -149,7 +149,7 @@ export function readState(search) {
     if (problem) problems.push(`${key} is '${text}'; it ${problem}`);
     else given[key] = value;
   }
-  const state = { ...defaultsOf({ ...defaults, ...given }), ...given, resolved: { layers: 8, steps: 256, events: 8 } };
+  const state = { ...defaultsOf({ ...defaults, ...given }), ...given, resolved: { layers: 4, steps: 50, events: 8 } };
   if (state.output.startsWith('layer') && !peels(state.technique)) state.technique = 'layered';
   return { state, problems };
 }

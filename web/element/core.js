@@ -30,6 +30,8 @@ export async function coreStatistics() {
   return { contexts: viewers.size, heapBytes: core?.HEAPU8.length ?? 0 };
 }
 
+const workAtOnce = 20000; // triangles looked at: a few milliseconds
+
 /** A context, the renderer in it, and the calls of web/viewer.c. */
 export class Viewer {
   #core;
@@ -81,9 +83,10 @@ export class Viewer {
     return this.#viewer === 0;
   }
 
-  /** Compiles the shaders, at first and after the context was restored. */
+  /** At first and after the context was restored. */
   start() {
     this.#core.GL.makeContextCurrent(this.#context);
+    this.gl.getExtension('KHR_parallel_shader_compile'); // where there is one, the core asks when shaders are ready
     this.#viewer = this.#core.ccall('vtViewer_Create', 'number', ['number', 'number'], [1, 1]);
     const problem = this.#viewer === 0 ? 'out of memory' : this.problem();
     if (problem) throw new Error(problem);
@@ -172,6 +175,15 @@ export class Viewer {
       if (place !== 0) this.call('SetImage', index, place, picture.width, picture.height);
     }
     return this.attempt('Show');
+  }
+
+  /** Goes on with what the scene that was begun is searched by, for some milliseconds. @returns {boolean} it is whole, or cannot be */
+  build(milliseconds) {
+    const end = performance.now() + milliseconds;
+    let isWhole;
+    do isWhole = this.call('Build', workAtOnce) === 1;
+    while (!isWhole && performance.now() < end);
+    return isWhole;
   }
 
   problem() {

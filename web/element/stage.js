@@ -7,6 +7,7 @@ import { Orbit, usualFieldOfView } from './orbit.js';
 import { Quality, levels } from './quality.js';
 
 const largestDpr = 2; // canvas pixels per CSS pixel
+const slice = 12; // milliseconds of building a scene at once
 const stillAfter = 250; // milliseconds without motion until the full frame
 
 /**
@@ -38,7 +39,9 @@ export class Stage {
   #core = null;
   #viewer = null;
   #pending = {}; // sources that no viewer was there for
-  #decoding = null; // the scene whose pictures the browser decodes
+  #coming = null; // the scene whose pictures the browser decodes, or that is being built
+  #goOn = null; // with building it, for some milliseconds
+  #filled = false; // the viewer has the scene
   #visible = false;
   #spin = 0;
   #lastTime = 0;
@@ -83,14 +86,14 @@ export class Stage {
 
   /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source|import('./loading.js').Scene} source */
   show(kind, source) {
-    if (kind === 'model') this.#decoding = null;
+    if (kind === 'model') this.#coming = null;
     if (this.#viewer === null || this.#viewer.isLost) this.#pending[kind] = source;
     else this.#upload(kind, source);
   }
 
   /** There is no model any more. */
   dropModel() {
-    this.scene.model = this.#decoding = null;
+    this.scene.model = this.#coming = this.#goOn = null;
     delete this.#pending.model;
     this.close();
   }
@@ -114,6 +117,7 @@ export class Stage {
     this.#frame = 0;
     this.#busy = null;
     if (this.#viewer === null) return;
+    this.#keepComing();
     this.#viewer.destroy();
     this.#viewer = null;
     const canvas = this.#host.querySelector('canvas');
@@ -123,7 +127,8 @@ export class Stage {
   /** The full picture. @returns {ImageData} @throws {Error} a sentence */
   image() {
     if (this.#viewer === null) this.#open();
-    if (this.scene.model === null || this.#viewer === null || this.#viewer.isLost) throw new Error('nothing is shown yet');
+    this.#goOn?.(Infinity);
+    if (!this.#filled || this.#viewer === null || this.#viewer.isLost) throw new Error('nothing is shown yet');
     const [width, height] = this.#size(1);
     const canvas = this.#host.querySelector('canvas');
     if (this.#dirty || this.quality.level !== 0 || canvas.width !== width || canvas.height !== height) {
@@ -139,7 +144,7 @@ export class Stage {
    * nothing is shown. See vtViewer_Path.
    */
   path(x, y) {
-    if (this.#viewer === null || this.#viewer.isLost || this.scene.model === null) return null;
+    if (this.#viewer === null || this.#viewer.isLost || !this.#filled) return null;
     const { width, height } = this.#host.querySelector('canvas');
     return this.#viewer.path(x * width, y * height);
   }
@@ -166,6 +171,7 @@ export class Stage {
       if (canvas.parentNode !== this.#host) return; // given up
       event.preventDefault();
       this.#busy = null;
+      this.#keepComing();
       this.#viewer.stop();
       this.#told.lost();
     });
@@ -184,10 +190,17 @@ export class Stage {
     this.#told.restored(); // in case the one before was lost
   }
 
+  /** The viewer goes: what it does not show yet is for the next one. */
+  #keepComing() {
+    if (this.#coming !== null && this.#coming !== this.scene.model) this.#pending.model ??= this.#coming;
+    this.#coming = this.#goOn = null;
+  }
+
   /** Gives a new viewer what was shown, and what came in the meantime. */
   #fill() {
     this.#framedFor = '';
     this.#drawn = {};
+    this.#filled = false;
     const { scene } = this;
     const pending = this.#pending;
     this.#pending = {};
@@ -199,22 +212,42 @@ export class Stage {
 
   #upload(kind, source, isNew = true) {
     const viewer = this.#viewer;
-    let problem;
     if (kind === 'environment') {
-      problem = source.contents === null ? viewer.attempt('SetEnvironment', source.name) : viewer.attemptFile('OpenEnvironment', source);
-    } else {
-      problem = viewer.begin(source.parts);
-      if (!problem && source.pictures === undefined && viewer.images.length > 0) {
-        this.#decode(source, viewer.images);
-        return;
-      }
-      problem ||= viewer.show(source.pictures ?? new Map());
-      if (!problem) {
-        this.#framedFor = '';
-        this.#refused &&= {};
-      }
+      this.#shown(kind, source, isNew, source.contents === null ? viewer.attempt('SetEnvironment', source.name) : viewer.attemptFile('OpenEnvironment', source));
+      return;
     }
+    const problem = viewer.begin(source.parts);
+    if (problem) this.#shown(kind, source, isNew, problem);
+    else if (source.pictures === undefined && viewer.images.length > 0) this.#decode(source, viewer.images);
+    else this.#build(source, isNew);
+  }
+
+  /** Shows the scene that was begun once it is built, in slices of time; unless another one has come, or the viewer has gone. */
+  #build(source, isNew) {
+    const viewer = this.#viewer;
+    this.#coming = source;
+    const goOn = (milliseconds) => {
+      if (this.#goOn !== goOn || this.#coming !== source) return;
+      if (viewer.build(milliseconds)) {
+        this.#coming = this.#goOn = null;
+        const problem = viewer.show(source.pictures ?? new Map());
+        if (!problem) {
+          this.#framedFor = '';
+          this.#refused &&= {};
+        }
+        this.#shown('model', source, isNew, problem);
+      } else {
+        setTimeout(goOn, 0, slice);
+      }
+    };
+    this.#goOn = goOn;
+    goOn(slice);
+  }
+
+  #shown(kind, source, isNew, problem) {
     if (!problem) this.scene[kind] = source;
+    if (!problem && kind === 'model') this.#filled = true;
+    else if (kind === 'model' && !this.#filled && isNew && this.scene.model !== null) this.#upload(kind, this.scene.model, false); // the one before stays
     this.invalidate();
     if (problem) this.#told.rejected(kind, problem);
     else if (isNew) this.#told.shown(kind);
@@ -222,7 +255,7 @@ export class Stage {
 
   /** Has the browser decode a scene's pictures, then shows it, unless another one has come. */
   async #decode(source, images) {
-    this.#decoding = source;
+    this.#coming = source;
     const pictures = new Map(), missing = [];
     await Promise.all(images.map(async ({ index, bytes, name }) => {
       const picture = await decodeTexture(bytes);
@@ -230,7 +263,7 @@ export class Stage {
       else missing.push(`${name} is no picture that this browser can decode; white is shown in its place`);
     }));
     source.pictures = pictures;
-    if (this.#decoding !== source) return;
+    if (this.#coming !== source) return;
     this.#told.warned('pictures', missing.sort().join('. '));
     this.show('model', source);
   }
@@ -294,7 +327,7 @@ export class Stage {
 
   #schedule() {
     const isWanted = this.#dirty || this.#spin !== 0 || (this.#isRefining && !this.quality.moving);
-    const canDraw = this.#viewer !== null && !this.#viewer.isLost && this.#visible && this.scene.model !== null;
+    const canDraw = this.#viewer !== null && !this.#viewer.isLost && this.#visible && this.#filled;
     if (!isWanted || !canDraw || this.#busy !== null || this.#frame !== 0) return;
     this.#frame = requestAnimationFrame((time) => {
       this.#frame = 0;
@@ -329,6 +362,11 @@ export class Stage {
     const start = performance.now();
     const drawn = this.#viewer.call('Tick');
     this.#isRefining = drawn > 0;
+    if (drawn === 2) { // shaders are being compiled
+      this.#dirty = isNew;
+      this.#schedule();
+      return;
+    }
     if (drawn < 0) problem ||= this.#viewer.problem();
     if (problem) this.#told.failed(problem);
     if (isNew) this.#tellScale(width, height);

@@ -1,1 +1,0 @@
-#define FIRST_LEVEL

@@ -1,0 +1,1 @@
+#define KEEPS_FIRST

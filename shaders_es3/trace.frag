@@ -1,0 +1,144 @@
+// Techniques `exact` and `heightfield` in one pass: follows each pixel's path through the glass, event by event, until
+// it has left all glass for good or ends on something opaque, then the light that left it on the way, and sums up what
+// comes back. What is seen first is found by the same search.
+uniform int u_branches; // times that light which left a path is followed
+#ifndef WITH_OPAQUE // lighting.glsl has it
+uniform sampler2D u_environment;
+#endif
+
+layout(location = 0) out uvec4 o_path;     // last direction (bits of three floats), state
+layout(location = 1) out uvec4 o_radiance; // bits of floats: linear light after exposure, share of the pixel it covers
+
+// Far more surfaces than paths meet, so that no fault of the data hangs the GPU.
+const int MOST_SURFACES = 256;
+
+// What became of a path; where it ends on something opaque, where.
+struct End {
+    int status;
+    Meeting meeting;
+};
+
+const Meeting NO_MEETING = Meeting(NOWHERE, VT_NO_TRIANGLE, vec2(0.0), -1, -1);
+
+// isFresh: the path begins at the eye. isDirect: glass does not count, only what is opaque.
+End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
+{
+    End end = End(VT_PATH_LOST, NO_MEETING);
+    Start start = Start(p.position, p.direction, media, -1, VT_NO_TRIANGLE, isFresh, false, isDirect);
+    // What is read after the loop is kept from round to round: software renderers (Mesa 22.3) spoil it otherwise.
+    for (int surface = 0; surface < MOST_SURFACES; ++surface) {
+        Meeting met = searchScene(start);
+        bool isMet = met.triangle != VT_NO_TRIANGLE;
+#ifdef WITH_OPAQUE
+        bool isOpaque = isMet && met.object >= u_scene.x;
+#else
+        const bool isOpaque = false;
+#endif
+        bool isLast = p.events >= u_search.w;
+        bool isOut = !isMet && (start.media == AIR || isDirect);
+        end.status = isOut ? (start.isEye ? VT_PATH_BACKGROUND : VT_PATH_EXITED) : isOpaque ? VT_PATH_OPAQUE : end.status;
+        bool more = isMet && !isOpaque && !isLast;
+#ifdef WITH_OPAQUE // WebGL has no ?: of structures
+        end.meeting.triangle = isOpaque ? met.triangle : end.meeting.triangle;
+        end.meeting.at = isOpaque ? met.at : end.meeting.at;
+        end.meeting.object = isOpaque ? met.object : end.meeting.object;
+#endif
+        if (isOpaque) {
+            absorb(p, start.media, met.distance);
+        }
+        p.position += isMet ? met.distance * p.direction : vec3(0.0);
+        if (more) {
+            SurfaceHit hit = meetingSurface(met, p.position);
+            Media before = start.media;
+#ifdef ONE_OBJECT
+            if (start.isEye) { // the first surface tells what the eye is within
+                before = dot(hit.flatNormal, p.direction) > 0.0 ? toggle(AIR, uint(met.object + 1)) : AIR;
+            }
+#endif
+            media = before;
+            crossSurface(p, media, met.distance, hit, met.also);
+            more = p.events < u_search.w || media == AIR;
+            start = Start(p.position, p.direction, media, met.object, met.triangle, false, media != before, false);
+        }
+        if (!more) {
+            break;
+        }
+    }
+    return end;
+}
+
+// Light that a ray brings; what is opaque at its end, if anything.
+vec3 lightAlong(vec3 direction, Meeting opaque, vec3 position)
+{
+    vec3 light = environmentRadiance(u_output.z, u_environment, direction); // a lost path sees it, too
+#ifdef WITH_OPAQUE
+    if (opaque.triangle != VT_NO_TRIANGLE) {
+        float pixel = (u_pictureFrustum.w - u_pictureFrustum.y) / float(u_size.y);
+        light = shadeSurface(opaque.object, RecordHit(0.0, opaque.triangle, opaque.at), direction, pixel * length(position - u_eye.xyz));
+    }
+#endif
+    return light;
+}
+
+void writeLight(vec3 light, int status)
+{
+    float share = status == VT_PATH_BACKGROUND && u_output.w != 0 ? 0.0 : 1.0; // the page shows behind the glass
+    o_radiance = floatBitsToUint(vec4(light * u_optics.z * share, share));
+}
+
+void main()
+{
+#ifdef ONE_OBJECT
+    readObject();
+#endif
+#ifdef STRICT
+    Path p = startPath(u_eye.xyz, cameraDirection(pictureTangent(gl_FragCoord.xy)));
+    End end = followPath(p, AIR, true, false);
+    o_path = uvec4(floatBitsToUint(p.direction), pathState(p, end.status));
+    writeLight(p.transmittance * lightAlong(p.direction, end.meeting, p.position), end.status);
+#else
+    Path p = startPath(u_eye.xyz, cameraDirection(pictureTangent(gl_FragCoord.xy)));
+    Media media = AIR;
+    vec3 light = vec3(0.0);
+    uvec4 path = uvec4(0u);
+    int left = u_branches, status = VT_PATH_LOST;
+    bool isDirect = false;
+    // The pixel's own path, the light that left it and that in turn, what left the last of them, and the first
+    // surface's reflection; the last two are not followed through glass.
+    vec3 firstPosition = vec3(0.0), firstDirection = vec3(1.0, 0.0, 0.0), firstLight = vec3(0.0);
+    for (int i = 0; i < VT_MAX_BRANCHES + 3; ++i) {
+        bool isOwn = i == 0;
+        End end = End(VT_PATH_EXITED, NO_MEETING);
+#ifndef WITH_OPAQUE // a direct ray meets nothing
+        if (!isDirect)
+#endif
+        {
+            end = followPath(p, media, isOwn, isDirect);
+        }
+        light += p.transmittance * lightAlong(p.direction, end.meeting, p.position);
+        if (isOwn) {
+            status = end.status;
+            path = uvec4(floatBitsToUint(p.direction), pathState(p, status));
+            firstPosition = p.firstPosition;
+            firstDirection = p.firstDirection;
+            firstLight = vec3(p.firstShare);
+        }
+        bool isAside = strongest(p.aside) > 0.0;
+        vec3 next = isAside ? p.aside : firstLight;
+        isDirect = !isAside || left == 0 || strongest(next) < VT_LEAST_BRANCH;
+        --left;
+        media = p.asideMedia;
+        p = startPath(isAside ? p.asidePosition : firstPosition, isAside ? p.asideDirection : firstDirection);
+        p.transmittance = next;
+        // Another number for every sample, that does not hang together with the path's own: 43 steps of the golden ratio.
+        p.choice = u_eye.w < 0.0 ? u_eye.w : fract(43.0 * u_eye.w);
+        p.events = 1; // it met the surface that it left the path at
+        firstLight = isAside ? firstLight : vec3(0.0);
+        if (strongest(next) <= 0.0) { // asked here: software renderers run a loop asked at its beginning once more
+            break;
+        }
+    }
+    o_path = path;
+    writeLight(light, status);
+#endif
+}

@@ -1,0 +1,105 @@
+#include "gl/environment_buffer.h"
+
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "gl/lighting_texture.h"
+
+void vtEnvironmentBuffer_Create(vtEnvironmentBuffer* buffer, const vtGL* gl)
+{
+    *buffer = (vtEnvironmentBuffer){0};
+    vtTexture_Resize(&buffer->picture, gl, GL_RGB16F, 1, 1, 0);
+}
+
+/// A copy whose picture, if it has one, is at most 512 wide: enough for light on surfaces.
+static vtResult shrinkEnvironment(const vtEnvironment* environment, vtEnvironment* shrunk, vtError* error)
+{
+    *shrunk = *environment;
+    if (environment->kind != vt_environmentImage) {
+        return vt_ok;
+    }
+    const int factor = (environment->width + 511) / 512;
+    shrunk->width = environment->width / factor;
+    shrunk->height = environment->height / factor > 0 ? environment->height / factor : 1;
+    shrunk->pixels = calloc((size_t)shrunk->width * (size_t)shrunk->height, 3 * sizeof(float));
+    if (shrunk->pixels == NULL) {
+        return vtFail(error, vt_errorMemory, "environment: out of memory");
+    }
+    const int down = environment->height < factor ? environment->height : factor;
+    for (int y = 0; y < shrunk->height * down; ++y) {
+        for (int x = 0; x < shrunk->width * factor; ++x) {
+            const float* from =
+                environment->pixels + 3 * ((size_t)y * (size_t)environment->width + (size_t)x);
+            float* to =
+                shrunk->pixels + 3 * ((size_t)(y / down) * (size_t)shrunk->width + (size_t)(x / factor));
+            for (int k = 0; k < 3; ++k) {
+                to[k] += from[k] / (float)(factor * down);
+            }
+        }
+    }
+    return vt_ok;
+}
+
+vtResult vtEnvironmentBuffer_Set(vtEnvironmentBuffer* buffer, const vtGL* gl,
+                                 const vtEnvironment* environment, vtError* error)
+{
+    bool isImage = environment->kind == vt_environmentImage;
+    int width = isImage ? environment->width : 1, height = isImage ? environment->height : 1;
+    GLint largest = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (width > largest || height > largest) {
+        return vtFail(
+            error, vt_errorContext,
+            "environment: %d x %d is more than this GPU's largest texture (%d); scale the picture down",
+            width, height, largest);
+    }
+    vtTexture fresh = {0};
+    vtTexture_Resize(&fresh, gl, GL_RGB16F, width, height, 0);
+    if (isImage) {
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGB, GL_FLOAT, environment->pixels);
+    }
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    vtResult result = vtCheckGL(gl, "uploading the environment", error);
+    if (result != vt_ok) {
+        vtTexture_Destroy(&fresh, gl);
+        return result;
+    }
+    vtEnvironment light;
+    result = shrinkEnvironment(environment, &light, error);
+    if (result != vt_ok) {
+        vtTexture_Destroy(&fresh, gl);
+        return result;
+    }
+    vtEnvironmentBuffer_Destroy(buffer, gl);
+    *buffer = (vtEnvironmentBuffer){environment->kind, .picture = fresh, .light = light};
+    return vt_ok;
+}
+
+vtResult vtEnvironmentBuffer_Light(vtEnvironmentBuffer* buffer, const vtGL* gl, vtError* error)
+{
+    if (buffer->lighting.name != 0) {
+        return vtSucceed(error);
+    }
+    vtLighting lighting;
+    vtResult result = vtCreateLighting(&buffer->light, &lighting, error);
+    if (result == vt_ok) {
+        result = vtLightingTexture_Upload(&buffer->lighting, gl, &lighting, error);
+        vtDestroyLighting(&lighting);
+    }
+    return result;
+}
+
+void vtEnvironmentBuffer_Destroy(vtEnvironmentBuffer* buffer, const vtGL* gl)
+{
+    vtTexture_Destroy(&buffer->picture, gl);
+    vtTexture_Destroy(&buffer->lighting, gl);
+    vtDestroyEnvironment(&buffer->light);
+    *buffer = (vtEnvironmentBuffer){0};
+}
+
+size_t vtEnvironmentBuffer_Bytes(const vtEnvironmentBuffer* buffer)
+{
+    return vtTexture_Bytes(&buffer->picture) + vtTexture_Bytes(&buffer->lighting);
+}

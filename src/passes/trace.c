@@ -1,0 +1,108 @@
+#include "passes/trace.h"
+
+#include "base/error.h"
+#include "shaders.h"
+#include "technique.h"
+
+vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtFrame* frame)
+{
+    bool any = false, only = true;
+    for (uint32_t i = 0; i < scene->objectCount && vtTechnique_Row(frame->technique)->heights; ++i) {
+        const bool isRelief = vtSceneBuffer_HasHeights(scene, i);
+        any = any || isRelief;
+        only = only && isRelief;
+    }
+    const bool opaque = scene->objectCount > scene->glassCount;
+    const bool one = scene->objectCount == 1 && !opaque && !any && !scene->objects[0].bothSides;
+    return (one ? vt_traceOneObject : 0) | (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
+           (any && only ? vt_traceOnlyHeights : 0) | (vtFrame_IsStrict(frame) ? vt_traceStrict : 0) |
+           (frame->countReads ? vt_traceCounted : 0);
+}
+
+static vtProgramDef describe(vtTraceVariant variant)
+{
+    const bool heights = (variant & vt_traceHeights) != 0, opaque = (variant & vt_traceOpaque) != 0;
+    const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
+    const vtChunk* const chunks[] = {
+        (variant & vt_traceCounted) != 0 ? &vtChunk_count_reads : NULL,
+        (variant & vt_traceStrict) != 0 ? &vtChunk_strict : &vtChunk_keeps_first,
+        one ? &vtChunk_one_object : NULL,
+        opaque ? &vtChunk_with_opaque : NULL,
+        records ? NULL : &vtChunk_only_heights,
+        &vtChunk_octahedral,
+        &vtChunk_media,
+        &vtChunk_path,
+        &vtChunk_environment,
+        &vtChunk_objects,
+        &vtChunk_optics,
+        &vtChunk_cross_surface,
+        records ? &vtChunk_records : NULL,
+        one ? NULL : &vtChunk_object_tree,
+        heights ? &vtChunk_grid_walk : NULL,
+        heights ? &vtChunk_search_heights : NULL,
+        &vtChunk_search_scene,
+        opaque ? &vtChunk_lighting : NULL,
+        opaque ? &vtChunk_shading : NULL,
+        &vtChunk_trace_frag,
+    };
+    vtProgramDef def = {.name = "trace",
+                        .vertex = {&vtChunk_screen_vert},
+                        .samplers = {"u_objects", "u_records", "u_objectTree", "u_environment",
+                                     "u_attributes", "u_images", "u_lighting", "u_heights", "u_heightRanges"},
+                        .uniforms = {"u_branches"}};
+    int count = 0;
+    for (size_t i = 0; i < sizeof chunks / sizeof chunks[0]; ++i) {
+        if (chunks[i] != NULL) {
+            def.fragment[count++] = chunks[i];
+        }
+    }
+    return def;
+}
+
+void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs)
+{
+    const vtProgramDef def = describe(variant);
+    vtProgramList_Start(programs, &pass->programs[variant], gl, &def);
+}
+
+vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, int width, int height, vtError* error)
+{
+    bool changed = vtTexture_Resize(&pass->paths, gl, GL_RGBA32UI, width, height, 0);
+    changed |= vtTexture_Resize(&pass->radiance, gl, GL_RGBA32UI, width, height, 0);
+    if (!changed) {
+        return vtSucceed(error);
+    }
+    const vtAttachment colors[] = {{&pass->paths, 0}, {&pass->radiance, 0}};
+    return vtMakeFramebuffer(gl, "trace", colors, 2, NULL, &pass->framebuffer, error);
+}
+
+void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant variant,
+                      const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment, int branches)
+{
+    const vtProgram* program = &pass->programs[variant];
+    vtBindFramebuffer(gl, pass->framebuffer, pass->paths.width, pass->paths.height);
+    gl->UseProgram(program->name);
+    gl->Uniform1i(program->uniforms[0], branches);
+    // Units as the samplers above.
+    const vtTexture* units[] = {&scene->table,          &scene->records,         &scene->tree,
+                                &environment->picture,  &scene->attributes,      &scene->images,
+                                &environment->lighting, &scene->heights.heights, &scene->heights.ranges};
+    vtBindTextures(gl, units, sizeof units / sizeof units[0]);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void vtTracePass_Destroy(vtTracePass* pass, const vtGL* gl)
+{
+    for (int i = 0; i < vt_traceVariantCount; ++i) {
+        vtProgram_Destroy(&pass->programs[i], gl);
+    }
+    vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
+    vtTexture_Destroy(&pass->paths, gl);
+    vtTexture_Destroy(&pass->radiance, gl);
+    *pass = (vtTracePass){0};
+}
+
+size_t vtTracePass_Bytes(const vtTracePass* pass)
+{
+    return vtTexture_Bytes(&pass->paths) + vtTexture_Bytes(&pass->radiance);
+}
