@@ -31,7 +31,7 @@ trap 'rm -rf "$scratch"' EXIT
 - *within 1°, 5°, lost*: exit directions against the reference, on pixels whose true path meets at most four surfaces.
 - *reads*: texture reads of the path, counted by the shaders themselves, a pixel that sees glass and an event.
 - *textures*: all that a renderer holds that draws only this technique, but the mesh; *bytes a triangle*: the mesh on the
-  GPU; *upload*: the scene to the GPU, the hierarchy included unless *build* says what it takes by itself.
+  GPU; *build*: the hierarchies, on one processor; *upload*: the scene with them to the GPU.
 TEXT
   [ "${ROUNDS:-9}" -ge 9 ] || printf '\nMedians of few frames: read the CPU ratios.\n'
   for model in ${models:+"$models/bunny_69666.glb"} knot torus; do
