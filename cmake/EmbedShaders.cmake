@@ -1,6 +1,60 @@
 # Turns the files of shaders_es3/ into C arrays, so that the library carries its shaders.
-# Run as: cmake -DSOURCES="a.frag;b.glsl" -DOUTPUT_C=... -DOUTPUT_H=... -P EmbedShaders.cmake
+# Run as: cmake -DSOURCES="a.frag;b.glsl" -DOUTPUT_C=... -DOUTPUT_H=... [-DSHORT=ON] -P EmbedShaders.cmake
 # peel.frag becomes vtChunk_peel_frag, frame.glsl becomes vtChunk_frame, constants.h vtChunk_constants.
+
+# SHORT: the names that the shaders give get two letters, the same in all of them, and lines are joined, which
+# takes 3 KB off a page's compressed wasm. Those that C knows have an underscore (u_size) and stay, as do GLSL's own, of which these are all
+# that have four letters or more and begin with a small one.
+set(glsl_words
+  abs acos acosh asin asinh atan atanh binding bool break bvec2 bvec3 bvec4 case ceil centroid clamp const continue cosh cross
+  default define defined degrees determinant discard distance elif else endif equal error exp2 faceforward false flat
+  float floatBitsToInt floatBitsToUint floor fract fwidth greaterThan greaterThanEqual highp ifdef ifndef inout
+  intBitsToFloat inverse inversesqrt invariant isampler2D isampler2DArray isinf isnan ivec2 ivec3 ivec4 layout length
+  lessThan lessThanEqual line location log2 lowp main mat2 mat3 mat4 mat2x3 mat2x4 mat3x2 mat3x4 mat4x2 mat4x3
+  matrixCompMult mediump normalize notEqual outerProduct packHalf2x16 packSnorm2x16 packUnorm2x16 pragma precision radians
+  reflect refract return round roundEven sampler2D sampler2DArray sampler3D samplerCube sign sinh smooth smoothstep sqrt
+  std140 step struct switch tanh texelFetch texelFetchOffset texture textureGrad textureLod textureLodOffset textureOffset
+  textureProj textureSize transpose true trunc uint uintBitsToFloat undef uniform unpackHalf2x16 unpackSnorm2x16
+  unpackUnorm2x16 usampler2D usampler2DArray uvec2 uvec3 uvec4 vec2 vec3 vec4 version void while dFdx dFdy wwww xxxx yyyy zzzz)
+if(SHORT)
+  set(words "")
+  foreach(source IN LISTS SOURCES)
+    file(READ ${source} text)
+    string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+    string(REGEX MATCHALL "[A-Za-z0-9_]+" found "${text}")
+    list(APPEND words ${found})
+  endforeach()
+  list(REMOVE_DUPLICATES words)
+  set(short_names "")
+  foreach(first c d e f h i j k l m n o p q s t u v)
+    foreach(second a b c d e f g h i j k l m n o p q r s t u v w x y z A B C D E F G H I J K L M N O P Q R S T U V W X Y Z)
+      list(APPEND short_names ${first}${second})
+    endforeach()
+  endforeach()
+  list(REMOVE_ITEM short_names ${words} if in do) # and no swizzle: st, sp, pq, ...
+  list(FILTER short_names EXCLUDE REGEX "^[stpq][stpq]$")
+  list(FILTER words INCLUDE REGEX "^[a-z][A-Za-z0-9][A-Za-z0-9][A-Za-z0-9]+$")
+  list(REMOVE_ITEM words ${glsl_words})
+  list(LENGTH words word_count)
+  list(SUBLIST short_names 0 ${word_count} short_names)
+endif()
+
+function(shorten variable)
+  string(REGEX REPLACE "([A-Za-z0-9_]+)" "@\\1@" text "${${variable}}")
+  foreach(word short IN ZIP_LISTS words short_names)
+    string(REPLACE "@${word}@" "${short}" text "${text}")
+  endforeach()
+  string(REPLACE "@" "" text "${text}")
+  # Lines become one, but for those of the preprocessor.
+  string(REGEX REPLACE "\n\n+" "\n" text "${text}")
+  string(REGEX REPLACE "(#[^\n]*)\n" "\\1@" text "${text}")
+  string(REPLACE "\n#" "@#" text "${text}")
+  string(REGEX REPLACE "([;{},(&|=+*?:<>-])\n" "\\1" text "${text}")
+  string(REPLACE "@" "\n" text "${text}")
+  string(APPEND text "\n") # what follows may begin with #
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
 set(declarations "// Made from shaders_es3/ by cmake/EmbedShaders.cmake; do not edit.\n#pragma once\n\n#include \"gl/program.h\"\n\n")
 set(definitions "// Made from shaders_es3/ by cmake/EmbedShaders.cmake; do not edit.\n#include \"shaders.h\"\n\n")
 foreach(source IN LISTS SOURCES)
@@ -14,6 +68,9 @@ foreach(source IN LISTS SOURCES)
   string(REGEX REPLACE "\n[ \t]+" "\n" text "${text}")
   if(NOT text MATCHES "#") # a macro's name and its text must stay apart
     string(REGEX REPLACE " *([*/=<>?:,&|(){}]) *" "\\1" text "${text}")
+  endif()
+  if(SHORT)
+    shorten(text)
   endif()
   file(WRITE ${OUTPUT_C}.part "${text}")
   file(READ ${OUTPUT_C}.part hex HEX)

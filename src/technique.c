@@ -5,6 +5,7 @@
 #include <assert.h>
 #include <string.h>
 
+#include "base/about.h"
 #include "shaders.h"
 
 // The texture units of the refract pass, the same for every technique (passes/refract.c binds them); the last
@@ -48,9 +49,10 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueKayLinear] =
         {
             .info = {.id = "kay-linear",
-                     .summary =
-                         "surfaces blended back to front, the same transmittance everywhere; no refraction",
-                     .source = "Kay & Greenberg, Transparency for Computer Synthesized Images, equation 1",
+                     .summary = VT_ABOUT(
+                         "surfaces blended back to front, the same transmittance everywhere; no refraction"),
+                     .source = VT_ABOUT(
+                         "Kay & Greenberg, Transparency for Computer Synthesized Images, equation 1"),
                      .year = 1979,
                      .refracts = false},
             .layers = VT_LAYERS_OF_FRAME,
@@ -65,8 +67,10 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueKayNonlinear] =
         {
             .info = {.id = "kay-nonlinear",
-                     .summary = "as before, less transparent where the surface turns away, highlights added",
-                     .source = "Kay & Greenberg, Transparency for Computer Synthesized Images, equation 2",
+                     .summary = VT_ABOUT(
+                         "as before, less transparent where the surface turns away, highlights added"),
+                     .source = VT_ABOUT(
+                         "Kay & Greenberg, Transparency for Computer Synthesized Images, equation 2"),
                      .year = 1979,
                      .refracts = false},
             .layers = VT_LAYERS_OF_FRAME,
@@ -81,8 +85,9 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueKayThickness] =
         {
             .info = {.id = "kay-thickness",
-                     .summary = "every surface a thin wall that shifts what lies behind it",
-                     .source = "Kay & Greenberg, Transparency for Computer Synthesized Images, section 4",
+                     .summary = VT_ABOUT("every surface a thin wall that shifts what lies behind it"),
+                     .source =
+                         VT_ABOUT("Kay & Greenberg, Transparency for Computer Synthesized Images, section 4"),
                      .year = 1979,
                      .refracts = true},
             .layers = VT_LAYERS_OF_FRAME,
@@ -97,8 +102,8 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueSingle] =
         {
             .info = {.id = "single",
-                     .summary = "one refraction at the first surface, then the environment",
-                     .source = "common practice; the first column of Wang & Chi's comparisons",
+                     .summary = VT_ABOUT("one refraction at the first surface, then the environment"),
+                     .source = VT_ABOUT("common practice; the first column of Wang & Chi's comparisons"),
                      .year = 2003,
                      .refracts = true},
             .surface = true,
@@ -113,8 +118,10 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueWyman] =
         {
             .info = {.id = "wyman",
-                     .summary = "two refractions, the distance between them guessed from two known ones",
-                     .source = "Wyman, An Approximate Image-Space Approach for Interactive Refraction",
+                     .summary =
+                         VT_ABOUT("two refractions, the distance between them guessed from two known ones"),
+                     .source =
+                         VT_ABOUT("Wyman, An Approximate Image-Space Approach for Interactive Refraction"),
                      .year = 2005,
                      .refracts = true},
             .surface = true,
@@ -123,17 +130,19 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .refract[vt_variantAny] = {.name = "wyman",
                                        .vertex = {&vtChunk_screen_vert},
                                        .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
-                                                    &vtChunk_write_path, &vtChunk_objects, &vtChunk_optics,
-                                                    &vtChunk_cross_surface, &vtChunk_first_surface,
-                                                    &vtChunk_layer_space, &vtChunk_layers_of_all,
+                                                    &vtChunk_write_path, &vtChunk_objects,
+                                                    &vtChunk_optics, &vtChunk_cross_surface,
+                                                    &vtChunk_first_surface, &vtChunk_layer_space,
+                                                    &vtChunk_layers_of_all,
                                                     &vtChunk_second_layer, &vtChunk_refract_wyman_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueOliveira] =
         {
             .info = {.id = "oliveira",
-                     .summary = "two refractions, the back side found by a search in its depth",
-                     .source = "Oliveira & Brauwers, Real-Time Refraction Through Deformable Objects",
+                     .summary = VT_ABOUT("two refractions, the back side found by a search in its depth"),
+                     .source =
+                         VT_ABOUT("Oliveira & Brauwers, Real-Time Refraction Through Deformable Objects"),
                      .year = 2007,
                      .refracts = true},
             .surface = true,
@@ -141,17 +150,20 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
             .refract[vt_variantAny] = {.name = "oliveira",
                                        .vertex = {&vtChunk_screen_vert},
                                        .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
-                                                    &vtChunk_write_path, &vtChunk_objects, &vtChunk_optics,
-                                                    &vtChunk_cross_surface, &vtChunk_first_surface,
-                                                    &vtChunk_layer_space, &vtChunk_layers_of_all,
+                                                    &vtChunk_write_path, &vtChunk_objects,
+                                                    &vtChunk_optics, &vtChunk_cross_surface,
+                                                    &vtChunk_first_surface, &vtChunk_layer_space,
+                                                    &vtChunk_layers_of_all,
                                                     &vtChunk_second_layer, &vtChunk_refract_oliveira_frag},
                                        .samplers = VT_REFRACT_SAMPLERS},
         },
     [vt_techniqueLayered] =
         {
             .info = {.id = "layered",
-                     .summary = "N peeled layers searched for every refraction and total internal reflection",
-                     .source = "Wang & Chi, Image Space Real-time Multi-refraction Technology",
+                     .summary =
+                         VT_ABOUT(
+                             "N peeled layers searched for every refraction and total internal reflection"),
+                     .source = VT_ABOUT("Wang & Chi, Image Space Real-time Multi-refraction Technology"),
                      .year = 2014,
                      .refracts = true},
             .surface = true,
@@ -171,8 +183,9 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueExact] =
         {
             .info = {.id = "exact",
-                     .summary = "a wide hierarchy of the triangles, searched for every event: exact hits",
-                     .source = "Vitrine",
+                     .summary =
+                         VT_ABOUT("a wide hierarchy of the triangles, searched for every event: exact hits"),
+                     .source = VT_ABOUT("Vitrine"),
                      .year = 2026,
                      .refracts = true},
             .traces = true,
@@ -180,8 +193,9 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
     [vt_techniqueHeightField] =
         {
             .info = {.id = "heightfield",
-                     .summary = "as exact, but a relief by its heights alone, without triangles",
-                     .source = "Tevs, Ihrke & Seidel, Maximum Mipmaps for Height Field Rendering; Weng",
+                     .summary = VT_ABOUT("as exact, but a relief by its heights alone, without triangles"),
+                     .source =
+                         VT_ABOUT("Tevs, Ihrke & Seidel, Maximum Mipmaps for Height Field Rendering; Weng"),
                      .year = 2008,
                      .refracts = true},
             .traces = true,

@@ -61,6 +61,20 @@ function textured(image) {
   return glb({ json, bin: Buffer.concat([bin, texcoords, image]) });
 }
 
+/** A ring of so many times so many squares. */
+function torus(around, across) {
+  const positions = [], indices = [];
+  for (let i = 0; i < around; ++i) {
+    for (let k = 0; k < across; ++k) {
+      const u = (2 * Math.PI * i) / around, v = (2 * Math.PI * k) / across, r = 1 + 0.4 * Math.cos(v);
+      positions.push(r * Math.cos(u), r * Math.sin(u), 0.4 * Math.sin(v));
+      const [a, b, c, d] = [[i, k], [i + 1, k], [i + 1, k + 1], [i, k + 1]].map(([m, n]) => (m % around) * across + (n % across));
+      indices.push(a, b, c, a, c, d);
+    }
+  }
+  return glb(gltf({ positions, indices }));
+}
+
 /** A .png of one colour. */
 function plain(...color) {
   const png = new PNG({ width: 8, height: 8 });
@@ -863,6 +877,109 @@ describe('the element', { skip }, () => {
     assert.deepEqual(await shown({ preset: 'high', maxEvents: 5 }), ['high', 8, 100, 5]);
     assert.deepEqual(await shown({ technique: 'layered', layers: 3 }), ['high', 3, 100, 5]);
     assert.deepEqual(await shown({ technique: null, preset: null, layers: null, maxEvents: null }), ['medium', 4, 50, 8]);
+  });
+
+  describe('a large model', () => {
+    const large = torus(400, 150); // 120 000 triangles
+    before(() => pages.set('/large.glb', { html: large, headers: { 'content-type': 'model/gltf-binary' } }));
+
+    /** A page with a sphere; `act` is called after each slice of building what comes next, with the number of slices so far. */
+    async function sliced(t, act) {
+      const page = await open(t, `<vitrine-viewer id="a" src="sphere" skybox-image></vitrine-viewer>${ofSide}`);
+      await page.evaluate(async (body) => {
+        const { Viewer } = await import('/element/core.js');
+        const { build } = Viewer.prototype;
+        window.slices = 0;
+        window.act = new Function('count', body);
+        Viewer.prototype.build = function (milliseconds) {
+          const isWhole = build.call(this, milliseconds);
+          const count = ++window.slices;
+          if (!isWhole && milliseconds < Infinity) setTimeout(() => window.act(count));
+          return isWhole;
+        };
+      }, act);
+      await page.evaluate(() => (a.src = '/large.glb'));
+      return page;
+    }
+    const loads = async (page) => (await events(page, 'load')).length;
+
+    test('is built in slices', async (t) => {
+      const page = await sliced(t, '');
+      await page.waitForFunction(() => a.loaded);
+      await quiet(page);
+      const slices = await page.evaluate(() => window.slices);
+      t.diagnostic(`${slices} slices`);
+      assert.ok(slices > 2, `${slices} slices`);
+      writeFileSync(join(folder, 'large.glb'), large);
+      const differing = difference(await picture(page), nativePicture('large.glb'));
+      assert.ok(differing < 0.5, `${differing} % differ`);
+    });
+
+    test('gives way to one that comes while it is built', async (t) => {
+      const page = await sliced(t, "if (count === 1) a.src = 'knot';");
+      const before = await loads(page);
+      await page.waitForFunction(() => window.slices > 0 && a.src === 'knot' && a.loaded);
+      await quiet(page);
+      assert.equal(await loads(page), before + 1, 'one of them is shown');
+      const seen = await picture(page);
+      assert.ok(difference(seen, nativePicture('knot')) < 0.5);
+    });
+
+    test('may lose its element while it is built', async (t) => {
+      const page = await sliced(t, 'if (count === 1) { window.gone = a; a.remove(); }');
+      await page.waitForFunction(() => window.gone);
+      await quiet(page);
+      assert.equal(await page.evaluate(() => gone.loaded), false);
+      await page.evaluate(() => document.body.append(gone));
+      await page.waitForFunction(() => a.loaded);
+      await quiet(page);
+      writeFileSync(join(folder, 'large.glb'), large);
+      assert.ok(difference(await picture(page), nativePicture('large.glb')) < 0.5);
+    });
+
+    test('is whole for toBlob', async (t) => {
+      const page = await sliced(t, 'if (count === 1) { window.isEarly = !a.loaded; window.url = a.toDataURL(); }');
+      await page.waitForFunction(() => window.url);
+      assert.equal(await page.evaluate(() => window.isEarly), true);
+      const early = PNG.sync.read(Buffer.from((await page.evaluate(() => window.url)).split(',')[1], 'base64'));
+      await quiet(page);
+      assert.equal(difference(early, await picture(page)), 0);
+      assert.equal((await events(page, 'load')).length, 2);
+    });
+  });
+
+  test('waits for its shaders without asking', async (t) => {
+    const init = () => {
+      window.isHeld = true;
+      window.asked = [];
+      const type = WebGL2RenderingContext.prototype;
+      const { getProgramParameter } = type;
+      type.getProgramParameter = function (program, name) {
+        if (window.isHeld) window.asked.push(name);
+        return name === 0x91b1 && window.isHeld ? false : getProgramParameter.call(this, program, name);
+      };
+    };
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere"></vitrine-viewer>', { init, waits: false });
+    if (await page.evaluate(() => document.createElement('canvas').getContext('webgl2').getExtension('KHR_parallel_shader_compile') === null)) {
+      t.skip('this browser does not tell when shaders are ready');
+      return;
+    }
+    await page.waitForFunction(() => window.asked.length > 5);
+    assert.deepEqual(await page.evaluate(() => [...new Set(window.asked)]), [0x91b1]);
+    assert.equal(await draws(page), 0);
+    await page.evaluate(() => (window.isHeld = false));
+    await page.waitForFunction(() => a.loaded);
+    await quiet(page);
+    assert.ok(await draws(page) > 0);
+    // What was drawn before stays until other shaders are there.
+    const seen = await shot(page);
+    await page.evaluate(() => Object.assign(window, { isHeld: true, asked: [] }));
+    await page.evaluate(() => (a.technique = 'single'));
+    await page.waitForFunction(() => window.asked.length > 5);
+    assert.equal(difference(seen, await shot(page)), 0);
+    await page.evaluate(() => (window.isHeld = false));
+    await quiet(page);
+    assert.ok(difference(seen, await shot(page)) > 1);
   });
 
   test('a lost context comes back with its scene', async (t) => {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/about.h"
 #include "base/error.h"
 #include "base/image.h"
 #include "base/math.h"
@@ -163,9 +164,10 @@ static const struct {
     const char* name;
     const char* summary;
 } builtIn[] = {
-    {"checker", "a 32 x 16 checker tinted by direction, for tests: every distortion is legible"},
-    {"studio", "soft boxes and strip lights in a dark room, as a product photographer lights glass"},
-    {"sky", "a clear blue sky with sun over a tiled plain"},
+    {"checker", VT_ABOUT("a 32 x 16 checker tinted by direction, for tests: every distortion is legible")},
+    {"studio",
+     VT_ABOUT("soft boxes and strip lights in a dark room, as a product photographer lights glass")},
+    {"sky", VT_ABOUT("a clear blue sky with sun over a tiled plain")},
 };
 enum { builtInCount = sizeof builtIn / sizeof builtIn[0] };
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/about.h"
 #include "base/error.h"
 
 static const float pi = 3.14159265f;
@@ -91,10 +92,10 @@ static const struct {
     float (*height)(float x, float y); // the longer side goes from -1 to 1, y upwards; 0 to 1
     float depth;
 } patterns[] = {
-    {"ripples", "rings of three drops in water", ripples, 0.05f},
-    {"hammered", "dimples of hammered cathedral glass", hammered, 0.05f},
-    {"fluted", "twelve reeds along y", fluted, 0.04f},
-    {"lens-array", "six by six lenses", lensArray, 0.1f},
+    {"ripples", VT_ABOUT("rings of three drops in water"), ripples, 0.05f},
+    {"hammered", VT_ABOUT("dimples of hammered cathedral glass"), hammered, 0.05f},
+    {"fluted", VT_ABOUT("twelve reeds along y"), fluted, 0.04f},
+    {"lens-array", VT_ABOUT("six by six lenses"), lensArray, 0.1f},
 };
 enum { patternCount = sizeof patterns / sizeof patterns[0], defaultSide = 512 };
 

@@ -1,6 +1,7 @@
 // The table of built-in shapes, and the few operations they are made with.
 #include "scene/shapes.h"
 
+#include "base/about.h"
 #include "base/error.h"
 #include "base/math.h"
 
@@ -16,16 +17,17 @@ typedef struct ShapeRow {
 } ShapeRow;
 
 static const ShapeRow shapeTable[] = {
-    {"sphere", "solid ball of radius 1", vtBuildSphere, 0},
-    {"torus", "solid ring, radii 1 and 0.4, about the vertical axis", vtBuildTorus, 2 * 96 * 192},
-    {"knot", "trefoil knot of a round rod, the (2, 3) torus knot", vtBuildKnot, 2 * 480 * 48},
-    {"goblet", "hollow wine glass with stem and foot", vtBuildGoblet, 0},
-    {"bottle", "hollow wine bottle with lip and punt", vtBuildBottle, 0},
-    {"diamond", "round brilliant cut with 57 facets and a faceted girdle", vtBuildDiamond, 0},
-    {"cube", "cube of side 1.2 with flat faces", vtBuildCube, 0},
-    {"plane", "square of side 4 that faces +z, open: a ground or a backdrop", vtBuildPlane, 0},
-    {"tumbler", "hollow drinking glass with a thick base", vtBuildTumbler, 0},
-    {"water", "what fills the tumbler to 60 %, its sides inside the tumbler's walls", vtBuildWater, 0},
+    {"sphere", VT_ABOUT("solid ball of radius 1"), vtBuildSphere, 0},
+    {"torus", VT_ABOUT("solid ring, radii 1 and 0.4, about the vertical axis"), vtBuildTorus, 2 * 96 * 192},
+    {"knot", VT_ABOUT("trefoil knot of a round rod, the (2, 3) torus knot"), vtBuildKnot, 2 * 480 * 48},
+    {"goblet", VT_ABOUT("hollow wine glass with stem and foot"), vtBuildGoblet, 0},
+    {"bottle", VT_ABOUT("hollow wine bottle with lip and punt"), vtBuildBottle, 0},
+    {"diamond", VT_ABOUT("round brilliant cut with 57 facets and a faceted girdle"), vtBuildDiamond, 0},
+    {"cube", VT_ABOUT("cube of side 1.2 with flat faces"), vtBuildCube, 0},
+    {"plane", VT_ABOUT("square of side 4 that faces +z, open: a ground or a backdrop"), vtBuildPlane, 0},
+    {"tumbler", VT_ABOUT("hollow drinking glass with a thick base"), vtBuildTumbler, 0},
+    {"water", VT_ABOUT("what fills the tumbler to 60 %, its sides inside the tumbler's walls"), vtBuildWater,
+     0},
 };
 enum { shapeCount = sizeof shapeTable / sizeof shapeTable[0] };
 

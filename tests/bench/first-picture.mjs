@@ -97,10 +97,10 @@ async function visit(address, { gl, size, frames }) {
         viewer.setAttribute('camera-orbit', `${10 * i + 5}deg 80deg auto`);
         times.push((await shown).detail.milliseconds);
       }
+      const later = { ...watched.counts };
       const gl = document.createElement('canvas').getContext('webgl2');
-      const later = watched.counts;
       const renderer = gl.getParameter(gl.getExtension('WEBGL_debug_renderer_info').UNMASKED_RENDERER_WEBGL);
-      return { milliseconds, longestBlock: watched.longest, longestTask: Math.max(0, ...longTasks), longTasks: longTasks.length, counts, later: { ...later }, times, renderer };
+      return { milliseconds, longestBlock: watched.longest, longestTask: Math.max(0, ...longTasks), longTasks: longTasks.length, counts, later, times, renderer };
     }, frames);
     return { ...found, browser: browser.version() };
   } finally {

@@ -101,13 +101,15 @@ class VitrineContestant {
     this.#setGlass(reflects);
     const contents = what === 'picture' ? files.environment : files.directions;
     this.#must(this.viewer.attemptFile('OpenEnvironment', { name: 'environment.hdr', contents }));
-    this.draw();
+    while (this.draw() === 2) await new Promise((done) => setTimeout(done, 5)); // its shaders are not compiled yet
   }
 
   draw() {
     const { eye, target, fov } = this.shared.camera;
     this.#must(this.viewer.attempt('SetView', ...eye, ...target, fov)); // as after a motion: everything anew
-    if (this.viewer.call('Tick') < 0) throw new Error(this.viewer.problem());
+    const drawn = this.viewer.call('Tick');
+    if (drawn < 0) throw new Error(this.viewer.problem());
+    return drawn;
   }
 
   #must(problem) {
