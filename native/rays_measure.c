@@ -154,18 +154,7 @@ static size_t tracePacket(RTCScene scene, struct RTCIntersectContext* context, c
     static const _Alignas(32) int valid[VT_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
     struct RTCRayHit8 query;
     for (int lane = 0; lane < VT_PACKET; ++lane) {
-        query.ray.org_x[lane] = rays[lane].origin.x;
-        query.ray.org_y[lane] = rays[lane].origin.y;
-        query.ray.org_z[lane] = rays[lane].origin.z;
-        query.ray.dir_x[lane] = rays[lane].direction.x;
-        query.ray.dir_y[lane] = rays[lane].direction.y;
-        query.ray.dir_z[lane] = rays[lane].direction.z;
-        query.ray.tnear[lane] = 0.0f;
-        query.ray.tfar[lane] = INFINITY;
-        query.ray.time[lane] = 0.0f;
-        query.ray.mask[lane] = ~0u;
-        query.ray.flags[lane] = 0;
-        query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+        vtSetPacketRay(&query, lane, rays[lane].origin, rays[lane].direction);
     }
     rtcIntersect8(valid, scene, context, &query);
     size_t hits = 0;

@@ -71,18 +71,7 @@ void vtReference_FindObjects(const vtReference* reference, const vtReferencePath
     for (int lane = 0; lane < VT_PACKET; ++lane) {
         const vtReferencePath* path = &paths[numbers[lane < count ? lane : 0]];
         valid[lane] = lane < count ? -1 : 0;
-        query.ray.org_x[lane] = path->origin.x;
-        query.ray.org_y[lane] = path->origin.y;
-        query.ray.org_z[lane] = path->origin.z;
-        query.ray.dir_x[lane] = path->direction.x;
-        query.ray.dir_y[lane] = path->direction.y;
-        query.ray.dir_z[lane] = path->direction.z;
-        query.ray.tnear[lane] = 0.0f;
-        query.ray.tfar[lane] = INFINITY;
-        query.ray.time[lane] = 0.0f;
-        query.ray.mask[lane] = ~0u;
-        query.ray.flags[lane] = 0;
-        query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+        vtSetPacketRay(&query, lane, path->origin, path->direction);
     }
     rtcIntersect8(valid, reference->boxes, &search.context, &query);
 }

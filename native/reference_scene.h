@@ -155,3 +155,20 @@ static inline vtVec3 vtNudge(vtVec3 direction)
     const vtVec3 axis = fabsf(direction.x) < 0.5f ? (vtVec3){1.0f, 0.0f, 0.0f} : (vtVec3){0.0f, 1.0f, 0.0f};
     return vtNormalize(vtMulAdd(direction, 1e-5f, vtCross(direction, axis)));
 }
+
+/// A ray of a packet from its origin to infinity, nothing met yet.
+static inline void vtSetPacketRay(struct RTCRayHit8* query, int lane, vtVec3 origin, vtVec3 direction)
+{
+    query->ray.org_x[lane] = origin.x;
+    query->ray.org_y[lane] = origin.y;
+    query->ray.org_z[lane] = origin.z;
+    query->ray.dir_x[lane] = direction.x;
+    query->ray.dir_y[lane] = direction.y;
+    query->ray.dir_z[lane] = direction.z;
+    query->ray.tnear[lane] = 0.0f;
+    query->ray.tfar[lane] = INFINITY;
+    query->ray.time[lane] = 0.0f;
+    query->ray.mask[lane] = ~0u;
+    query->ray.flags[lane] = 0;
+    query->hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+}
