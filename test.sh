@@ -1,7 +1,18 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and passes every test. Exit code 0: all passed.
+#   ./test.sh         about a quarter of an hour
+#   ./test.sh --all   also what is long: nothing left out under sanitizers, ten minutes of hostile glTF files, the
+#                     browser's picture against its rivals'
 set -eu
 cd "$(dirname "$0")"
+
+all=false
+case ${1:-} in
+  "") ;;
+  --all) all=true ;;
+  --help | -h) sed -n '2,5s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) echo "test.sh: unknown option '$1'; it takes --all" >&2; exit 1 ;;
+esac
 
 bash scripts/dependencies.sh
 
@@ -17,10 +28,28 @@ else
 fi
 
 echo "== native, with address and undefined-behaviour sanitizers"
-cmake --preset asan >/dev/null
+cmake --preset asan "-DVT_LONG_TESTS=$all" >/dev/null
 cmake --build --preset asan
 
 echo "== tests, sanitizers"
 ctest --preset asan -j 2
 echo "== tests, release"
 ctest --preset release
+
+if $all; then
+  if command -v clang >/dev/null; then
+    echo "== hostile glTF files, ten minutes"
+    cmake -S . -B build/fuzz -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DVT_SANITIZE=ON -DVT_FUZZ=ON \
+      -DBUILD_TESTING=ON >/dev/null
+    cmake --build build/fuzz --target fuzz_gltf -j 2
+    mkdir -p build/fuzz/corpus
+    build/fuzz/tests/fuzz_gltf -max_total_time=600 -rss_limit_mb=4096 -print_final_stats=1 build/fuzz/corpus tests/cases
+  else
+    echo "== hostile glTF files: left out, clang is not installed"
+  fi
+  if command -v emcmake >/dev/null; then
+    echo "== the browser's picture against its rivals'"
+    npm --prefix tests/bench install --no-audit --no-fund --loglevel=error
+    node tests/bench/glass.mjs --rounds 3
+  fi
+fi

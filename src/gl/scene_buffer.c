@@ -304,9 +304,11 @@ bool vtSceneBuffer_UpdateMesh(vtSceneBuffer* buffer, const vtGL* gl, const vtSce
     }
     *records = (vtMeshRecords){records->first, h->recordCount, h->origin, h->gridLow, h->gridScale};
     vtTexture_SetRecords(&buffer->records, gl, records->first, h->recordCount, h->records);
+    const bool bothSides = from->openEdgeCount > 0 || vtHierarchy_Overlaps(h);
     for (uint32_t i = 0; i < buffer->objectCount; ++i) {
         if (buffer->objects[i].mesh == mesh) {
             placeObject(buffer, from, &buffer->objects[i]);
+            buffer->objects[i].bothSides = buffer->objects[i].material.opaque || bothSides;
         }
     }
     findBoxes(buffer);

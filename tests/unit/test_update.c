@@ -119,6 +119,54 @@ static void wornHierarchiesAreBuiltAnew(void** state)
     vtDestroyScene(&scene);
 }
 
+/// Two spheres of one mesh, apart.
+static void createSpheres(vtMesh* mesh)
+{
+    vtError error;
+    vtMesh sphere;
+    assert_ok(vtCreateShape("sphere", &sphere, &error), error);
+    const uint32_t vertices = sphere.vertexCount, indices = sphere.indexCount;
+    float* positions = malloc(6 * sizeof(float) * vertices);
+    uint32_t* corners = malloc(2 * sizeof(uint32_t) * indices);
+    for (uint32_t i = 0; i < 2 * vertices; ++i) {
+        memcpy(positions + 3 * i, sphere.positions + 3 * (i % vertices), 3 * sizeof(float));
+        positions[3 * i] += i < vertices ? -1.1f : 1.1f;
+    }
+    for (uint32_t i = 0; i < 2 * indices; ++i) {
+        corners[i] = sphere.indices[i % indices] + (i < indices ? 0 : vertices);
+    }
+    const vtMeshDef def = {
+        .positions = positions, .indices = corners, .vertexCount = 2 * vertices, .indexCount = 2 * indices};
+    assert_ok(vtCreateMesh(&def, "spheres", mesh, &error), error);
+    free(positions);
+    free(corners);
+    vtDestroyMesh(&sphere);
+}
+
+static void partsMovedIntoEachOtherAreDrawn(void** state)
+{
+    Fixture* fixture = *state;
+    vtError error;
+    vtMesh mesh;
+    vtScene scene;
+    const vtMaterial glass = vtDefaultMaterial();
+    createSpheres(&mesh);
+    assert_ok(vtCreateMeshScene(&mesh, &glass, &scene, &error), error);
+    prepare(&scene);
+    assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
+    vtMesh* moved = &scene.meshes[0];
+    float* positions = malloc(3 * sizeof(float) * moved->vertexCount);
+    for (uint32_t i = 0; i < moved->vertexCount; ++i) {
+        memcpy(positions + 3 * i, moved->positions + 3 * i, 3 * sizeof(float));
+        positions[3 * i] += positions[3 * i] < 0.0f ? 0.6f : -0.6f;
+    }
+    assert_ok(vtMesh_Update(moved, positions, NULL, &error), error);
+    assert_ok(vtRenderer_UpdateMesh(fixture->renderer, &scene, 0, &error), error);
+    assert_true(compare(fixture->renderer, &scene, vt_techniqueExact) <= side * side / 1000);
+    free(positions);
+    vtDestroyScene(&scene);
+}
+
 static void badVerticesChangeNothing(void** state)
 {
     (void)state;
@@ -144,6 +192,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(movedVerticesAreDrawn),
         cmocka_unit_test(wornHierarchiesAreBuiltAnew),
+        cmocka_unit_test(partsMovedIntoEachOtherAreDrawn),
         cmocka_unit_test(badVerticesChangeNothing),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);
