@@ -46,7 +46,7 @@ static vtResult probeTriangles(vtSession* session, vtBenchCase* measured, vtBenc
         row->glassBytes = row->meshBytes;
         return result;
     }
-    if (result != vt_errorMemory && result != vt_errorContext) {
+    if (result != vt_errorMemory && result != vt_errorContext && result != vt_errorGeometry) {
         return vtFail(error, result, "%s", reason.message);
     }
     snprintf(row->absent, sizeof row->absent, "%.500s", reason.message);
