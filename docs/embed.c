@@ -1,10 +1,10 @@
 // Vitrine in a program of your own, in 70 lines: make a context current, create a renderer, give it a scene
-// and an environment, draw. Only vitrine.h is needed; the context here comes from native/context.h so that
-// the example runs anywhere, your program has its own (GLFW, SDL, EGL, a browser canvas).
+// and an environment, draw. Only vitrine.h is needed; the context here comes from native/context/context.h so
+// that the example runs anywhere, your program has its own (GLFW, SDL, EGL, a browser canvas).
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "context.h"
+#include "context/context.h"
 #include "vitrine.h"
 
 static int fail(const char* doing, const vtError* error)

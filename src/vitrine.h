@@ -20,7 +20,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "../shaders_es3/constants.h" // VT_MAX_LAYERS and the other limits, shared with the shaders
+#include "vitrine_limits.h" // VT_MAX_LAYERS and the other limits, shared with the shaders
 
 #ifndef __EMSCRIPTEN__
 #define VT_WITH_CELLS ///< vt_searchCells; web pages search in steps whatever vtFrame.search says

@@ -1,4 +1,4 @@
-// Geometric optics at one surface on the CPU. The same names and numbers as shaders_es3/optics.glsl
+// Geometric optics at one surface on the CPU. The same names and numbers as shaders_es3/common/optics.glsl
 // and transparency.glsl; a change here is a change there (tests/unit/test_gpu.c compares them).
 #pragma once
 

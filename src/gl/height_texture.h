@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gl/target.h"
-#include "scene/height_field.h"
+#include "mesh/height_field.h"
 
 typedef struct vtHeightTexture {
     vtTexture heights; ///< R32F: z of the samples, own units

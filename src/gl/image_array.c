@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "base/image.h"
+#include "image/image.h"
 
 typedef enum Use {
     useNone = 0,

@@ -1,4 +1,4 @@
-// The scene's images, for the shaders (shaders_es3/shading.glsl).
+// The scene's images, for the shaders (shaders_es3/shade/shading.glsl).
 #pragma once
 
 #include "gl/target.h"

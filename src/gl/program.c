@@ -32,6 +32,7 @@ static int collectChunks(const vtChunk* const* chunks, const vtChunk** all)
 {
     int count = 0;
     all[count++] = &header;
+    all[count++] = &vtChunk_vitrine_limits;
     all[count++] = &vtChunk_constants;
     all[count++] = &vtChunk_frame;
     for (int i = 0; i < VT_MAX_CHUNKS && chunks[i] != NULL; ++i) {

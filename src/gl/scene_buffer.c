@@ -8,7 +8,7 @@
 #include "base/math.h"
 #include "gl/image_array.h"
 #include "gl/object_tree.h"
-#include "scene/hierarchy.h"
+#include "mesh/hierarchy.h"
 
 /// A mesh while the scene is uploaded.
 typedef struct MeshUse {

@@ -8,6 +8,7 @@
 #include "gl/program.h"
 #include "gl/target.h"
 #include "scene/objects.h"
+#include "shaders_es3/common/constants.h"
 
 /// The uniforms of a program that draws objects.
 #define VT_OBJECT_UNIFORMS                                                                                   \

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gl/gl.h"
+#include "shaders_es3/common/constants.h"
 
 /// A 2-D texture (layers = 0) or 2-D array (layers > 0) of immutable size.
 typedef struct vtTexture {

@@ -1,4 +1,4 @@
-// The one uniform block, the same in C and GLSL (shaders_es3/frame.glsl): everything a frame's passes
+// The one uniform block, the same in C and GLSL (shaders_es3/common/frame.glsl): everything a frame's passes
 // have to know. Only 16-byte members, so that std140 and C agree without padding.
 #pragma once
 

@@ -3,6 +3,7 @@
 #include "gl/program.h"
 #include "gl/scene_buffer.h"
 #include "gl/target.h"
+#include "shaders_es3/common/constants.h"
 
 /// Depth peeling (Everitt 2001), front to back, one drawing of the mesh a layer, normals and depth through
 /// multiple render targets. Front and back faces both count as layers.

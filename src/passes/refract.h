@@ -3,7 +3,7 @@
 #include "gl/program.h"
 #include "gl/scene_buffer.h"
 #include "gl/target.h"
-#include "technique.h"
+#include "technique/technique.h"
 
 /// What becomes of every pixel's path (write_path.glsl); RGBA32UI each.
 typedef struct vtPathTargets {

@@ -3,6 +3,7 @@
 #include "gl/program.h"
 #include "gl/scene_buffer.h"
 #include "gl/target.h"
+#include "shaders_es3/common/constants.h"
 
 /// The surface each pixel sees first, at the picture's resolution, for techniques that search layers: depth
 /// and normals, and for the technique that asks for it the inner distance.

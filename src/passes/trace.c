@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "shaders.h"
-#include "technique.h"
+#include "technique/technique.h"
 
 vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtFrame* frame)
 {

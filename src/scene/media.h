@@ -1,4 +1,4 @@
-// Which objects of glass a path is within. The twin of shaders_es3/media.glsl. This work is based on:
+// Which objects of glass a path is within. The twin of shaders_es3/common/media.glsl. This work is based on:
 //   Charles Schmidt, Brian Budge. Simple Nested Dielectrics in Ray Traced Images. Journal of Graphics Tools
 //   7(2), 2002: where objects overlap, the one of highest priority counts, and surfaces within it are passed
 //   by.

@@ -1,6 +1,6 @@
 // One exact path, for people who want to see what light does: the event loop that the techniques imitate, on
-// the CPU. What objects do to each other: scene/media.h and shaders_es3/cross_surface.glsl. Departure: where
-// light could pass it does, however much of it is reflected.
+// the CPU. What objects do to each other: scene/media.h and shaders_es3/common/cross_surface.glsl. Departure:
+// where light could pass it does, however much of it is reflected.
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,11 +8,11 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/optics.h"
+#include "mesh/hierarchy.h"
+#include "mesh/mesh_triangle.h"
+#include "relief/height_trace.h"
 #include "scene/camera.h"
-#include "scene/height_trace.h"
-#include "scene/hierarchy.h"
 #include "scene/media.h"
-#include "scene/mesh_triangle.h"
 #include "scene/objects.h"
 
 /// Surfaces passed by without an event before a path is given up, should rounding ever make an endless loop.

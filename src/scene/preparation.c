@@ -1,7 +1,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "scene/hierarchy.h"
+#include "mesh/hierarchy.h"
 
 struct vtPreparation {
     vtScene* scene;

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "scene/height_field.h"
+#include "mesh/height_field.h"
 #include "scene/objects.h"
 
 vtMaterial vtDefaultMaterial(void)

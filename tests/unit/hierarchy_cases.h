@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cases.h"
-#include "scene/hierarchy.h"
-#include "scene/shapes.h"
+#include "mesh/hierarchy.h"
+#include "shapes/shapes.h"
 #include "testing.h"
 
 /// Triangles of no index list, 9 floats each.

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/math.h"
-#include "scene/mesh_triangle.h"
+#include "mesh/mesh_triangle.h"
 #include "testing.h"
 
 typedef enum vtReliefKind { vt_reliefFlat, vt_reliefRamp, vt_reliefHills, vt_reliefNoise } vtReliefKind;

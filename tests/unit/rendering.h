@@ -1,8 +1,8 @@
 // A renderer with room for a small picture: what the tests that draw share.
 #pragma once
 
-#include "context.h"
-#include "reference.h"
+#include "context/context.h"
+#include "lab/reference/reference.h"
 #include "scene/objects.h"
 #include "testing.h"
 

@@ -1,4 +1,4 @@
-// The compiled module, loaded once a page, and one Viewer (web/viewer.c) for each canvas.
+// The compiled module, loaded once a page, and one Viewer (web/core/viewer.c) for each canvas.
 import createVitrine from '../vitrine-core.js';
 import { outputs, presets } from './attributes.js';
 import { openInCore, placePicture } from './picture.js';
@@ -32,7 +32,7 @@ export async function coreStatistics() {
 
 const workAtOnce = 20000; // triangles looked at: a few milliseconds
 
-/** A context, the renderer in it, and the calls of web/viewer.c. */
+/** A context, the renderer in it, and the calls of web/core/viewer.c. */
 export class Viewer {
   #core;
   #canvas;

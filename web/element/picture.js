@@ -34,7 +34,7 @@ export async function decodeTexture(bytes) {
  * Puts a file into the core's memory and opens it there.
  * @param core the compiled module
  * @param {WebGL2RenderingContext} gl
- * @param {string} name of the call of web/viewer.c, for bytes; that for pictures ends in Picture
+ * @param {string} name of the call of web/core/viewer.c, for bytes; that for pictures ends in Picture
  * @param {Uint8Array|ImageBitmap} contents
  * @param {(name: string, ...values: number[]) => unknown} open makes the call
  * @returns what `open` returns; null where memory is out

@@ -1,0 +1,331 @@
+#include "cli/load.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "cli/files.h"
+#include "cli/objects.h"
+#include "cli/relief_input.h"
+#include "cli/trace.h"
+#include "image/image.h"
+#include "mesh/height_field.h"
+#include "relief/relief.h"
+#include "shapes/shapes.h"
+
+static bool isShape(const char* name)
+{
+    int i = 0;
+    while (vtShapeName(i) != NULL && strcmp(vtShapeName(i), name) != 0) {
+        ++i;
+    }
+    return vtShapeName(i) != NULL;
+}
+
+static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vtError* error)
+{
+    // Built-in names hold neither a dot nor a slash.
+    if (strpbrk(name, "./") == NULL) {
+        return vtCreateEnvironment(name, environment, error);
+    }
+    uint8_t* bytes;
+    size_t size;
+    vtResult result = vtReadFile(name, &bytes, &size, error);
+    if (result == vt_ok) {
+        result = vtLoadEnvironment(bytes, size, name, environment, error);
+        free(bytes);
+    }
+    return result;
+}
+
+// ----------------------------------------------------------------------------------------------- objects
+
+/// What a name names. `spec`: of an --object, NULL: of MODEL.
+typedef struct Named {
+    const vtOptions* options;
+    const vtObjectSpec* spec;
+    const char* name;
+} Named;
+
+static vtResult checkKind(const Named* named, vtObjectKind kind, vtError* error)
+{
+    return named->spec != NULL ? vtObjectSpec_Check(named->spec, kind, "--object", error)
+                               : vtCheckReliefOptions(named->options, kind, error);
+}
+
+static vtResult loadModel(const char* path, const void* bytes, size_t size, vtScene* scene, vtError* error)
+{
+    char directory[4096] = "";
+    const char* slash = strrchr(path, '/');
+    if (slash != NULL && (size_t)(slash - path) + 1 < sizeof directory) {
+        memcpy(directory, path, (size_t)(slash - path) + 1);
+    }
+    const vtModelDef def = {
+        .bytes = bytes, .size = size, .name = path, .directory = directory, .readFile = vtReadFileForModel};
+    return vtLoadScene(&def, scene, error);
+}
+
+/// A model or a picture of heights, by what it begins with: standard input has no name.
+static vtResult loadFile(const Named* named, vtScene* scene, vtError* error)
+{
+    uint8_t* bytes;
+    size_t size;
+    vtResult result = vtReadFile(named->name, &bytes, &size, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    const bool isRelief = vtIsPicture(bytes, size);
+    result = checkKind(named, isRelief ? vt_kindReliefFile : vt_kindMesh, error);
+    if (result == vt_ok && isRelief) {
+        const vtReliefDef def = vtMakeReliefDef(named->options, named->spec, -1);
+        result = vtLoadReliefFile(named->name, bytes, size, &def, scene, error);
+    } else if (result == vt_ok) {
+        result = loadModel(named->name, bytes, size, scene, error);
+    }
+    free(bytes);
+    return result;
+}
+
+/// `triangles`: about so many, 0: as built in.
+static vtResult loadShape(const char* name, int triangles, vtScene* scene, vtError* error)
+{
+    vtMesh mesh;
+    vtResult result = triangles > 0 ? vtCreateFineShape(name, (uint32_t)triangles, &mesh, error)
+                                    : vtCreateShape(name, &mesh, error);
+    if (result == vt_ok) {
+        vtMaterial material = vtDefaultMaterial();
+        material.opaque = strcmp(name, "plane") == 0; // it has no volume
+        result = vtCreateMeshScene(&mesh, &material, scene, error);
+        vtDestroyMesh(&mesh);
+    }
+    if (result == vt_ok) {
+        snprintf(scene->objects[0].name, sizeof scene->objects[0].name, "%.63s", name);
+    }
+    return result;
+}
+
+static bool isGlass(const vtScene* scene, uint32_t object)
+{
+    return !scene->materials[scene->objects[object].material].opaque;
+}
+
+static bool isGlassMesh(const vtScene* scene, uint32_t mesh)
+{
+    bool glass = false;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        glass = glass || (scene->objects[i].mesh == mesh && isGlass(scene, i));
+    }
+    return glass;
+}
+
+static void printReliefNotes(const char* name, const vtHeightField* field)
+{
+    fprintf(stderr,
+            "vitrine: '%s': relief of %d x %d samples, cell %g, z %g to %g, back at %g, %.1f MB of heights\n",
+            name, field->width, field->height, (double)field->cell, (double)field->low, (double)field->high,
+            (double)field->back, (double)vtHeightField_Bytes(field) / 1e6);
+}
+
+/// "x.glb", or where it has several meshes "x.glb, mesh 2".
+static void printMeshNotes(const char* name, const vtScene* scene, uint32_t index, bool verbose)
+{
+    const vtMesh* mesh = &scene->meshes[index];
+    char which[32] = "";
+    if (scene->meshCount > 1) {
+        snprintf(which, sizeof which, ", mesh %u,", index);
+    }
+    if (mesh->openEdgeCount > 0) {
+        fprintf(
+            stderr,
+            "vitrine: warning: '%s'%s is not closed (%u open edges); light that enters through a hole never "
+            "finds its way out there\n",
+            name, which, mesh->openEdgeCount);
+    }
+    if (mesh->normalsComputed) {
+        fprintf(stderr, "vitrine: note: '%s'%s lacks normals; they are computed, smooth over its edges\n",
+                name, which);
+    }
+    if (verbose && mesh->heights != NULL) {
+        printReliefNotes(name, mesh->heights);
+    } else if (verbose) {
+        fprintf(stderr, "vitrine: '%s'%s: %u triangles, %u vertices, box %g %g %g to %g %g %g\n", name, which,
+                mesh->indexCount / 3, mesh->vertexCount, (double)mesh->boundsMin.x, (double)mesh->boundsMin.y,
+                (double)mesh->boundsMin.z, (double)mesh->boundsMax.x, (double)mesh->boundsMax.y,
+                (double)mesh->boundsMax.z);
+    }
+}
+
+static void printNotes(const char* name, const vtScene* scene, bool verbose)
+{
+    for (uint32_t i = 0; i < scene->meshCount; ++i) {
+        if (isGlassMesh(scene, i)) {
+            printMeshNotes(name, scene, i, verbose);
+        }
+    }
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtObject* object = &scene->objects[i];
+        if (scene->materials[object->material].checker > 0.0f && !isGlass(scene, i) &&
+            scene->meshes[object->mesh].texcoords == NULL) {
+            fprintf(stderr, "vitrine: note: '%s' has no texture coordinates, so it shows no checker\n", name);
+            break;
+        }
+    }
+    if (verbose && scene->allGlass) {
+        fprintf(stderr,
+                "vitrine: note: '%s' has no material that is glass; all of them are taken for glass\n", name);
+    }
+}
+
+static vtResult failUnknown(const char* what, const char* name, vtError* error)
+{
+    return vtFail(
+        error, vt_errorFile,
+        "%s '%.200s' is neither a built-in shape or relief (see 'vitrine list') nor a file that can "
+        "be read",
+        what, name);
+}
+
+/// What a name names: built in, or in a file.
+static vtResult loadNamed(const Named* named, vtScene* scene, vtError* error)
+{
+    const int pattern = vtFindReliefPattern(named->name);
+    if (pattern >= 0) {
+        const vtResult result = checkKind(named, vt_kindReliefPattern, error);
+        const vtReliefDef def = vtMakeReliefDef(named->options, named->spec, pattern);
+        return result == vt_ok ? vtLoadReliefPattern(pattern, &def, scene, error) : result;
+    }
+    if (isShape(named->name)) {
+        const vtResult result = checkKind(named, vt_kindMesh, error);
+        return result == vt_ok ? loadShape(named->name, 0, scene, error) : result;
+    }
+    return loadFile(named, scene, error);
+}
+
+/// Loads what one --object names and puts it into the scene.
+static vtResult addObject(const vtOptions* options, const char* text, vtScene* scene, vtError* error)
+{
+    vtObjectSpec spec;
+    vtScene added = {0};
+    vtResult result = vtParseObject(text, "--object", access(text, R_OK) == 0, &spec, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    const bool isBuiltIn = isShape(spec.name) || vtFindReliefPattern(spec.name) >= 0;
+    if (!isBuiltIn && strcmp(spec.name, "-") != 0 && access(spec.name, R_OK) != 0) {
+        char what[256];
+        snprintf(what, sizeof what, "--object '%.200s':", text);
+        return failUnknown(what, spec.name, error);
+    }
+    result = loadNamed(&(Named){options, &spec, spec.name}, &added, error);
+    if (result == vt_ok) {
+        vtObjectSpec_Apply(&spec, &added);
+        printNotes(spec.name, &added, options->verbose);
+        const vtTransform place = vtObjectSpec_Place(&spec);
+        result = vtScene_Append(scene, &added, &place, error);
+    }
+    vtDestroyScene(&added);
+    return result;
+}
+
+static vtResult loadMain(const vtOptions* options, vtScene* scene, vtError* error)
+{
+    const char* model = options->model;
+    if (model == NULL && options->objectCount == 0) {
+        return vtFail(
+            error, vt_errorArgument,
+            "no model given; name a .glb or .gltf file, a picture of heights or a built-in shape or "
+            "relief (see 'vitrine list')");
+    }
+    if (model == NULL || options->triangles > 0) {
+        const vtResult result = vtCheckReliefOptions(options, vt_kindMesh, error);
+        return result == vt_ok && options->triangles > 0
+                   ? loadShape(model != NULL ? model : "", options->triangles, scene, error)
+                   : result;
+    }
+    // A name without dot or slash was hardly meant as a file.
+    const bool isBuiltIn = isShape(model) || vtFindReliefPattern(model) >= 0;
+    if (!isBuiltIn && strpbrk(model, "./-") == NULL && access(model, R_OK) != 0) {
+        return failUnknown("model", model, error);
+    }
+    return loadNamed(&(Named){options, NULL, model}, scene, error);
+}
+
+static vtResult loadObjects(const vtOptions* options, vtScene* scene, vtError* error)
+{
+    vtResult result = loadMain(options, scene, error);
+    if (result == vt_ok && options->model != NULL) {
+        printNotes(options->model, scene, options->verbose);
+    }
+    for (int i = 0; i < options->objectCount && result == vt_ok; ++i) {
+        result = addObject(options, options->objects[i], scene, error);
+    }
+    return result;
+}
+
+/// Whatever the command draws has what it needs.
+static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError* error)
+{
+    if (vtIsReference(options) && !options->innerDistances && !options->triangulates) {
+        return vtSucceed(error); // it takes reliefs by their heights
+    }
+    const vtTechnique technique = options->innerDistances ? vt_techniqueWyman
+                                  : options->triangulates
+                                      ? vt_techniqueExact
+                                      : vtFindTechnique(vtChooseTechnique(options, scene));
+    return vtPrepareScene(scene, technique, NULL, error);
+}
+
+vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
+{
+    *input = (vtInput){.ior = options->ior};
+    vtResult result = loadObjects(options, &input->scene, error);
+    if (result == vt_ok) {
+        result = vtValidateScene(&input->scene, error);
+    }
+    if (result == vt_ok) {
+        result = loadEnvironment(options->environment, &input->environment, error);
+    }
+    if (result == vt_ok) {
+        result = prepareMeshes(options, &input->scene, error);
+    }
+    if (result != vt_ok) {
+        vtDestroyInput(input);
+        return result;
+    }
+    return vtSucceed(error);
+}
+
+void vtDestroyInput(vtInput* input)
+{
+    vtDestroyScene(&input->scene);
+    vtDestroyEnvironment(&input->environment);
+    *input = (vtInput){0};
+}
+
+float vtCommonIor(const vtInput* input)
+{
+    const vtScene* scene = &input->scene;
+    float common = 0.0f;
+    for (uint32_t i = 0; i < scene->objectCount && input->ior == 0.0f; ++i) {
+        const float ior = scene->materials[scene->objects[i].material].ior;
+        if (isGlass(scene, i)) {
+            if (common > 0.0f && ior != common) {
+                return 0.0f;
+            }
+            common = ior;
+        }
+    }
+    return input->ior > 0.0f ? input->ior : common;
+}
+
+uint32_t vtCountTriangles(const vtScene* scene)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        count += scene->meshes[scene->objects[i].mesh].indexCount / 3;
+    }
+    return count;
+}

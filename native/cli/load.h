@@ -1,0 +1,22 @@
+// From names on the command line to a scene.
+#pragma once
+
+#include "cli/options.h"
+
+typedef struct vtInput {
+    vtScene scene;
+    vtEnvironment environment;
+    float ior; ///< of the command line; 0: each object's own
+} vtInput;
+
+/// Loads models and environment, prints notes (computed normals) and warnings (an open mesh) to stderr.
+vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error);
+void vtDestroyInput(vtInput* input);
+
+/// The index of refraction that all glass is drawn with; 0 where objects differ, or none is glass.
+float vtCommonIor(const vtInput* input);
+
+uint32_t vtCountTriangles(const vtScene* scene);
+
+/// The frame that the options ask for.
+vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* frame, vtError* error);

@@ -1,0 +1,335 @@
+#include "cli/options.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "cli/objects.h"
+#include "lab/bench/timing.h"
+
+typedef enum Kind { kindFlag, kindText, kindList, kindInteger, kindNumber, kindVector, kindSize } Kind;
+
+typedef struct Option {
+    const char* name;
+    char letter;
+    Kind kind;
+    size_t offset; // in vtOptions
+    double low, high;
+    const char* argument;
+    const char* help;
+    unsigned commands; // bit set of vtCommand
+} Option;
+
+#define RENDER (1u << vt_commandRender)
+#define VIEW (1u << vt_commandView)
+#define LADDER (1u << vt_commandLadder)
+#define THESIS (1u << vt_commandThesis)
+#define BENCH (1u << vt_commandBench)
+#define RAYS (1u << vt_commandRays)
+#define SCENE (RENDER | VIEW | LADDER | BENCH)
+#define AT(field) offsetof(vtOptions, field)
+
+static const Option table[] = {
+    {"object", 0, kindList, AT(objects), 0, 0, "NAME[:KEYS]", "one more object, see below; up to 64 times",
+     SCENE},
+    {"output", 'o', kindText, AT(output), 0, 0, "FILE", "the picture, PNG; - is standard output",
+     RENDER | LADDER},
+    {"technique", 't', kindText, AT(technique), 0, 0, "ID", "see 'vitrine list' (exact)", RENDER | VIEW},
+    {"technique", 't', kindText, AT(technique), 0, 0, "ID,ID,...",
+     "see 'vitrine list' (" VT_BENCH_TECHNIQUES ", of a relief " VT_RELIEF_TECHNIQUE
+     " before them; sweeps over objects: exact)",
+     BENCH},
+    {"preset", 0, kindText, AT(preset), 0, 0, "low|medium|high", "settings that are not given (medium)",
+     SCENE},
+    {"layers", 0, kindInteger, AT(layers), 1, VT_MAX_LAYERS, "N", "depth layers peeled (2, 4, 8)", SCENE},
+    {"steps", 0, kindInteger, AT(steps), 1, VT_MAX_STEPS, "N", "linear search steps a segment (25, 50, 100)",
+     SCENE},
+    {"refine", 0, kindInteger, AT(refine), 0, VT_MAX_REFINE, "N", "binary search steps after them (8)",
+     SCENE},
+    {"max-events", 0, kindInteger, AT(maxEvents), 1, VT_MAX_EVENTS, "N",
+     "refractions and internal reflections of a path (4, 8, 8)", SCENE},
+    {"layer-size", 0, kindInteger, AT(layerSize), 16, 8192, "N",
+     "longer side of the layer textures (that of the picture)", SCENE},
+    {"ior", 0, kindNumber, AT(ior), 1, 4, "N", "index of refraction of all glass (each object's own)", SCENE},
+    {"relief", 0, kindNumber, AT(relief), 0, 10, "DEPTH",
+     "MODEL is a relief: its depth from black to white (0.1; a built-in one's own)", SCENE | RAYS},
+    {"slab", 0, kindNumber, AT(slab), 0.001, 10, "THICKNESS", "a relief's glass behind black (0.1)",
+     SCENE | RAYS},
+    {"smooth", 0, kindNumber, AT(smooth), 0, 64, "SAMPLES",
+     "a relief's heights are smoothed over so many (0; pictures of 8 bits 2)", SCENE | RAYS},
+    {"relief-size", 0, kindInteger, AT(reliefSize), 2, VT_MAX_RELIEF_SIDE, "N",
+     "samples along a side of a built-in relief (512)", SCENE | RAYS},
+    {"transmittance", 0, kindNumber, AT(transmittance), 0, 1, "T",
+     "of a surface (kay-linear), of a unit of length (kay-thickness) (0.8)", SCENE},
+    {"max-transmittance", 0, kindNumber, AT(maxTransmittance), 0, 1, "T", "kay-nonlinear (0.95)", SCENE},
+    {"min-transmittance", 0, kindNumber, AT(minTransmittance), 0, 1, "T", "kay-nonlinear (0.2)", SCENE},
+    {"power", 0, kindNumber, AT(power), 0, 100, "P", "kay-nonlinear (3)", SCENE},
+    {"wall-thickness", 0, kindNumber, AT(wallThickness), 0, 1e6, "D",
+     "kay-thickness, the model's unit (6 % of its largest extent)", SCENE},
+    {"back-surface", 0, kindText, AT(backSurface), 0, 0, "second|farthest", "wyman's back side (second)",
+     SCENE},
+    {"environment", 'e', kindText, AT(environment), 0, 0, "NAME|FILE",
+     "see 'vitrine list', or a .hdr, .png or .jpg, equirectangular (studio)", SCENE},
+    {"exposure", 0, kindNumber, AT(exposure), -20, 20, "EV", "brightens by a factor of 2 each (0)", SCENE},
+    {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)",
+     SCENE | RAYS},
+    {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)",
+     SCENE | RAYS},
+    {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", SCENE | RAYS},
+    {"camera-index", 0, kindInteger, AT(cameraIndex), 0, 65535, "N",
+     "the files' camera of this number; --camera, --target and --fov go before it (none)", RENDER | VIEW},
+    {"resolution", 'r', kindSize, AT(size), 1, 16384, "W,H", "pixels (512,512)", SCENE},
+    {"directions", 0, kindText, AT(directions), 0, 0, "FILE",
+     "exit directions as PFM; 0,0,0 background, 2,2,2 lost", RENDER},
+    {"layer-sheet", 0, kindText, AT(layerSheet), 0, 0, "FILE", "depth and normal of each layer, PNG", RENDER},
+    {"analysis", 0, kindFlag, AT(analysis), 0, 0, NULL,
+     "path colours: red 2 refractions, blue more, green total reflection, grey lost", RENDER | VIEW},
+    {"rendering-backend", 0, kindText, AT(backend), 0, 0, "auto|osmesa|egl", "headless GL (auto)",
+     RENDER | LADDER | THESIS | BENCH},
+    {"fresnel", 0, kindFlag, AT(fresnelGiven), 0, 0, NULL,
+     "with Fresnel reflection, the default; given, it holds for --directions too", RENDER | VIEW},
+    {"no-fresnel", 0, kindFlag, AT(noFresnel), 0, 0, NULL, "paths only refract, or reflect where they must",
+     RENDER | VIEW},
+    {"branches", 0, kindInteger, AT(branches), -1, VT_MAX_BRANCHES, "N",
+     "exact: how often light that left a path is followed, -1 never (preset: 0, 1, 2)",
+     RENDER | VIEW | BENCH},
+    {"multi", 0, kindText, AT(multi), 0, 0, "any|ordered",
+     "layered, several objects: as paths meet them, or one after the other (any)", RENDER | VIEW | BENCH},
+    {"search", 0, kindText, AT(search), 0, 0, "steps|cells",
+     "layered: by linear and binary steps, or from cell to cell (steps)", RENDER | VIEW | BENCH},
+    {"events", 0, kindText, AT(events), 0, 0, "FILE",
+     "reference: number of events of each pixel's path, grey PNG, for 'compare --events'", RENDER},
+    {"samples", 0, kindInteger, AT(samples), 1, 65536, "N",
+     "a pixel, for smooth edges; more than 4096 the reference only (1, its centre)", RENDER | LADDER},
+    {"samples", 0, kindInteger, AT(samples), 1, VT_MAX_SAMPLES, "N",
+     "a pixel, one a frame while the view stands still (64)", VIEW},
+    {"reference", 0, kindText, AT(reference), 0, 0, "FILE", "fail where the picture differs from this one",
+     RENDER},
+    {"reference-threshold", 0, kindNumber, AT(referenceThreshold), 0, 1, "T",
+     "by more than this mean FLIP (0.05)", RENDER},
+    {"table", 0, kindText, AT(table), 0, 0, "FILE", "the figures as a Markdown table; - is standard output",
+     LADDER | BENCH | RAYS},
+    {"json", 0, kindFlag, AT(json), 0, 0, NULL, "one JSON object on standard output instead of the table",
+     BENCH | RAYS},
+    {"sweep", 0, kindText, AT(sweep), 0, 0, "triangles|resolution|relief|objects|depth",
+     "measure again and again: knot or torus of 1,000 to 1,000,000 triangles, pictures of 256 to 2048, a "
+     "built-in relief of five sizes up to --relief-size (4096), or 1 to 16 copies side by side or one behind "
+     "the other",
+     BENCH},
+    {"plot", 0, kindText, AT(plot), 0, 0, "FILE", "the sweep's times as a picture, SVG", BENCH},
+    {"triangles", 0, kindInteger, AT(triangles), 200, 4e6, "N",
+     "about so many, of the knot or the torus (theirs)", BENCH},
+    {"rounds", 0, kindInteger, AT(rounds), 1, vt_maxTimingRounds, "N",
+     "frames whose median is taken (9; 3 where they take more than 40 s)", BENCH},
+    {"rounds", 0, kindInteger, AT(rounds), 1, vt_maxTimingRounds, "N", "whose median is taken (5)", RAYS},
+    {"threads", 0, kindInteger, AT(threads), 1, 32, "N", "of llvmpipe and of the reference (all processors)",
+     BENCH},
+    {"output", 'o', kindText, AT(output), 0, 0, "FOLDER", "where the page and its pictures go", THESIS},
+    {"models", 0, kindText, AT(models), 0, 0, "FOLDER",
+     "holds the thesis's models as .glb; absent ones are left out", THESIS},
+    {"frames", 0, kindInteger, AT(frames), 1, 1000000, "N", "close the window after so many frames", VIEW},
+    {"verbose", 'v', kindFlag, AT(verbose), 0, 0, NULL, "say what is done, on what, with how much memory",
+     SCENE | THESIS | RAYS},
+    {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", SCENE | THESIS | RAYS},
+};
+#define OPTION_COUNT ((int)(sizeof table / sizeof table[0]))
+
+/// Reads `count` numbers separated by commas (or an x between two) and nothing else.
+static bool readNumbers(const char* text, double* numbers, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        char* end;
+        numbers[i] = strtod(text, &end);
+        bool last = i == count - 1;
+        if (end == text || !isfinite(numbers[i]) || (last ? *end != '\0' : *end != ',' && *end != 'x')) {
+            return false;
+        }
+        text = end + 1;
+    }
+    return true;
+}
+
+static vtResult storeNumbers(const Option* option, const char* text, void* field, vtError* error)
+{
+    double numbers[3] = {0};
+    int count = option->kind == kindVector ? 3 : option->kind == kindSize ? 2 : 1;
+    if (!readNumbers(text, numbers, count)) {
+        return vtFail(error, vt_errorArgument, "--%s is '%s'; it must be %s", option->name, text,
+                      count == 3   ? "three numbers X,Y,Z"
+                      : count == 2 ? "two whole numbers W,H"
+                                   : "a number");
+    }
+    for (int i = 0; i < count && option->kind != kindVector; ++i) {
+        bool whole = option->kind == kindNumber || numbers[i] == floor(numbers[i]);
+        if (!whole || numbers[i] < option->low || numbers[i] > option->high) {
+            return vtFail(error, vt_errorArgument, "--%s is %s; it must be %s from %g to %g", option->name,
+                          text, option->kind == kindNumber ? "a number" : "a whole number", option->low,
+                          option->high);
+        }
+    }
+    switch (option->kind) {
+    case kindInteger:
+        *(int*)field = (int)numbers[0];
+        break;
+    case kindNumber:
+        *(float*)field = (float)numbers[0];
+        break;
+    case kindSize:
+        ((int*)field)[0] = (int)numbers[0];
+        ((int*)field)[1] = (int)numbers[1];
+        break;
+    default:
+        *(vtVec3*)field = (vtVec3){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
+        break;
+    }
+    return vt_ok;
+}
+
+static vtResult store(const Option* option, char* value, vtOptions* options, vtError* error)
+{
+    void* field = (char*)options + option->offset;
+    if (option->kind == kindFlag) {
+        *(bool*)field = true;
+        return vt_ok;
+    }
+    if (option->kind == kindText) {
+        options->hasTechnique |= option->offset == AT(technique);
+        *(const char**)field = value;
+        return vt_ok;
+    }
+    if (option->kind == kindList) {
+        if (options->objectCount == VT_MAX_OBJECT_OPTIONS) {
+            return vtFail(error, vt_errorArgument,
+                          "--object '%.200s' is one too many; at most %d can be given", value,
+                          VT_MAX_OBJECT_OPTIONS);
+        }
+        ((const char**)field)[options->objectCount++] = value;
+        return vt_ok;
+    }
+    options->hasCamera |= option->offset == AT(camera);
+    options->hasTarget |= option->offset == AT(target);
+    options->hasFov |= option->offset == AT(fov);
+    return storeNumbers(option, value, field, error);
+}
+
+vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* options, vtError* error)
+{
+    vtFrame frame = vtDefaultFrame();
+    *options = (vtOptions){
+        .environment = "studio",
+        .technique = command == vt_commandBench ? VT_BENCH_TECHNIQUES : vtTechnique_Info(frame.technique)->id,
+        .backend = "auto",
+        .size = {frame.width, frame.height},
+        .preset = "medium",
+        .refine = frame.refine,
+        .maxEvents = frame.maxEvents,
+        .fov = frame.view.fovY,
+        .backSurface = "second",
+        .multi = "any",
+        .search = "steps",
+        .cameraIndex = -1,
+        .transmittance = frame.transmittance,
+        .maxTransmittance = frame.maxTransmittance,
+        .minTransmittance = frame.minTransmittance,
+        .power = frame.power,
+        .samples = command == vt_commandView ? 64 : 1,
+        .referenceThreshold = 0.05f,
+        .relief = -1.0f,
+        .slab = -1.0f,
+        .smooth = -1.0f,
+        .triangulates = command == vt_commandLadder || command == vt_commandBench,
+        .hasTechnique = command != vt_commandRender && command != vt_commandView,
+    };
+
+    // The table in getopt's form.
+    struct option longOptions[OPTION_COUNT + 1] = {0};
+    char letters[2 * OPTION_COUNT + 2] = ":";
+    for (int i = 0, used = 0, length = 1; i < OPTION_COUNT; ++i) {
+        if ((table[i].commands & (1u << command)) == 0) {
+            continue;
+        }
+        bool takesValue = table[i].kind != kindFlag;
+        longOptions[used++] = (struct option){table[i].name, takesValue, NULL, 256 + i};
+        if (table[i].letter != 0) {
+            letters[length++] = table[i].letter;
+            letters[length] = ':';
+            length += takesValue;
+            letters[length] = '\0';
+        }
+    }
+
+    opterr = 0;
+    optind = 1;
+    int code;
+    while ((code = getopt_long(count, words, letters, longOptions, NULL)) != -1) {
+        const char* word = words[optind - 1];
+        if (code == ':') {
+            return vtFail(error, vt_errorArgument, "option %s needs a value; see 'vitrine %s --help'", word,
+                          words[0]);
+        }
+        if (code == '?') {
+            return vtFail(error, vt_errorArgument, "unknown option %s; see 'vitrine %s --help'", word,
+                          words[0]);
+        }
+        const Option* option = &table[0];
+        while (code < 256 ? option->letter != code : option != &table[code - 256]) {
+            ++option;
+        }
+        vtResult result = store(option, optarg, options, error);
+        if (result != vt_ok) {
+            return result;
+        }
+    }
+    if (optind < count) {
+        options->model = words[optind++];
+    }
+    if (optind < count) {
+        return vtFail(error, vt_errorArgument,
+                      "one model is named by itself; '%s' is a second one, add it with --object",
+                      words[optind]);
+    }
+    if (options->fresnelGiven && options->noFresnel) {
+        return vtFail(error, vt_errorArgument, "--fresnel and --no-fresnel contradict each other; give one");
+    }
+    // The other commands compare strict paths.
+    options->fresnel = !options->noFresnel && (command == vt_commandRender || command == vt_commandView);
+    return vtSucceed(error);
+}
+
+void vtNameModels(const vtOptions* options, char* text, size_t size)
+{
+    snprintf(text, size, "%s", options->model != NULL ? options->model : "");
+    for (int i = 0; i < options->objectCount; ++i) {
+        const size_t used = strlen(text);
+        snprintf(text + used, size - used, "%s%s", used > 0 ? " + " : "", options->objects[i]);
+    }
+}
+
+void vtPrintOptions(vtCommand command)
+{
+    bool objects = false;
+    for (int i = 0; i < OPTION_COUNT; ++i) {
+        const Option* option = &table[i];
+        if ((option->commands & (1u << command)) == 0) {
+            continue;
+        }
+        objects = objects || option->kind == kindList;
+        char left[64], range[48] = "";
+        char letter[5] = "    ";
+        if (option->letter != 0) {
+            snprintf(letter, sizeof letter, "-%c, ", option->letter);
+        }
+        snprintf(left, sizeof left, "%s--%s %s", letter, option->name,
+                 option->argument ? option->argument : "");
+        if (option->high > option->low) {
+            snprintf(range, sizeof range, ", %g to %g", option->low, option->high);
+        }
+        printf("  %-36s %s%s\n", left, option->help, range);
+    }
+    if (objects) {
+        vtPrintObjectHelp();
+    }
+}

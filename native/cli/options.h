@@ -1,0 +1,78 @@
+// A command's options as a table: it drives parsing, ranges and --help.
+#pragma once
+
+#include "context/context.h"
+#include "vitrine.h"
+
+#define VT_MAX_OBJECT_OPTIONS 64
+
+/// What `render` and `view` draw a scene with that has reliefs, unless told otherwise.
+#define VT_RELIEF_TECHNIQUE "heightfield"
+
+/// What `bench` measures unless told otherwise.
+#define VT_BENCH_TECHNIQUES "exact,layered,single"
+
+/// All that `render` and `view` can be told. Zero or NULL means "not given" where a default depends on the
+/// model.
+typedef struct vtOptions {
+    const char* model;
+    const char* output;
+    const char* environment;
+    const char* technique;
+    const char* backend;
+    const char* directions;
+    const char* layerSheet;
+    const char* events;
+    const char* reference;
+    const char* table;
+    const char* models;
+    const char* backSurface;
+    const char* preset;
+    const char* sweep;
+    const char* plot;
+    const char* multi;
+    const char* search;
+    const char* objects[VT_MAX_OBJECT_OPTIONS]; ///< of --object, as given
+    int objectCount;
+    float ior, fov, exposure;
+    float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
+    vtVec3 camera, target;
+    bool hasCamera, hasTarget, hasFov;
+    int cameraIndex; ///< of the file's cameras; -1: none of them
+    int size[2];
+    int layers, steps, refine, maxEvents, layerSize;
+    int branches; ///< as vtFrame has them
+    int samples;  ///< a pixel
+    float referenceThreshold;
+    float relief, slab, smooth; ///< of MODEL; -1: not given
+    int reliefSize;             ///< samples along a side of a built-in relief
+    int triangles;              ///< of the knot or the torus; 0: as built in
+    int rounds, threads;
+    int frames; ///< view: close after so many, 0: never
+    bool json;
+    bool analysis, verbose, help;
+    bool fresnelGiven, noFresnel; ///< as given
+    bool fresnel;                 ///< what follows from them; never where strict paths are measured
+    bool hasTechnique;            ///< given, or a list of them
+    bool triangulates;   ///< several techniques are drawn: reliefs get triangles whatever the option says
+    bool innerDistances; ///< set by commands that draw `wyman` whatever the technique option says
+} vtOptions;
+
+typedef enum vtCommand {
+    vt_commandRender,
+    vt_commandView,
+    vt_commandLadder,
+    vt_commandThesis,
+    vt_commandBench,
+    vt_commandRays
+} vtCommand;
+
+/// Parses the words after the command. Fails with a sentence on an unknown option, a missing or malformed
+/// value or one out of range.
+vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* options, vtError* error);
+
+/// What is drawn, for reports: the model and the objects, " + " between them.
+void vtNameModels(const vtOptions* options, char* text, size_t size);
+
+/// Prints the table.
+void vtPrintOptions(vtCommand command);

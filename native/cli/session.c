@@ -1,0 +1,74 @@
+#include "cli/session.h"
+
+#include <string.h>
+
+#include "base/error.h"
+
+static vtResult findBackend(const char* name, vtBackend* backend, vtError* error)
+{
+    static const struct {
+        const char* name;
+        vtBackend backend;
+    } backends[] = {{"auto", vt_backendAuto}, {"osmesa", vt_backendOSMesa}, {"egl", vt_backendEgl}};
+    for (int i = 0; i < 3; ++i) {
+        if (strcmp(backends[i].name, name) == 0) {
+            *backend = backends[i].backend;
+            return vt_ok;
+        }
+    }
+    return vtFail(error, vt_errorArgument, "--rendering-backend is '%s'; it must be auto, osmesa or egl",
+                  name);
+}
+
+static vtResult setScene(vtSession* session, vtError* error)
+{
+    vtResult result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
+    if (result == vt_ok) {
+        result = vtRenderer_SetEnvironment(session->renderer, &session->input.environment, error);
+    }
+    return result;
+}
+
+vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* error)
+{
+    *session = (vtSession){0};
+    vtBackend backend = vt_backendAuto;
+    vtResult result = findBackend(options->backend, &backend, error);
+    if (result == vt_ok) {
+        result = vtLoadInput(options, &session->input, error);
+    }
+    if (result == vt_ok) {
+        result = vtCreateContext(backend, &session->context, error);
+    }
+    if (result == vt_ok) {
+        result =
+            vtCreateRenderer(&(vtRendererDef){session->context.getProcAddress}, &session->renderer, error);
+    }
+    if (result == vt_ok) {
+        result = setScene(session, error);
+    }
+    if (result != vt_ok) {
+        vtCloseSession(session);
+    }
+    return result;
+}
+
+vtResult vtSession_SetModel(vtSession* session, const vtOptions* options, vtError* error)
+{
+    vtInput fresh;
+    vtResult result = vtLoadInput(options, &fresh, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    vtDestroyInput(&session->input);
+    session->input = fresh;
+    return setScene(session, error);
+}
+
+void vtCloseSession(vtSession* session)
+{
+    vtDestroyRenderer(session->renderer);
+    vtDestroyContext(&session->context);
+    vtDestroyInput(&session->input);
+    *session = (vtSession){0};
+}

@@ -1,0 +1,20 @@
+// What every drawing command opens first: the scene, a headless context and a renderer that holds the scene.
+#pragma once
+
+#include "cli/load.h"
+#include "context/context.h"
+
+typedef struct vtSession {
+    vtInput input;
+    vtContext context;
+    vtRenderer* renderer;
+} vtSession;
+
+/// Opens all of it as the options say. On failure nothing is left open.
+vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* error);
+
+/// Puts another model into an open session; on failure the one before stays.
+vtResult vtSession_SetModel(vtSession* session, const vtOptions* options, vtError* error);
+
+/// Safe on a zeroed session.
+void vtCloseSession(vtSession* session);

@@ -1,0 +1,15 @@
+// The reference tracer as the commands use it.
+#pragma once
+
+#include "cli/load.h"
+#include "lab/reference/reference.h"
+
+/// True where --technique names the CPU reference rather than a row of the table.
+bool vtIsReference(const vtOptions* options);
+
+/// Traces the frame, with a progress line on standard error where that is a terminal.
+vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame,
+                 vtReferenceImage* image, vtError* error);
+
+/// The frame's output (picture or analysis) of a traced image: RGBA, allocated by malloc.
+vtResult vtTracePixels(const vtReferenceImage* image, const vtFrame* frame, uint8_t** pixels, vtError* error);

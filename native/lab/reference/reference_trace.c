@@ -1,0 +1,323 @@
+// Pictures of the reference: pixels in tiles, tiles shared out among threads.
+#include <assert.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "lab/reference/reference.h"
+#include "lab/reference/reference_scene.h"
+#include "light/shading.h"
+#include "scene/camera.h"
+
+enum { tileSide = 16 };
+
+/// One picture under work, shared by the threads; only nextTile and failed change.
+typedef struct Job {
+    const vtReference* reference;
+    const vtReferenceDef* def;
+    vtReferenceImage* image;
+    vtCameraFrame camera;
+    float tangentX, tangentY; ///< of half the field of view
+    int samples;
+    float exposure; ///< factor
+    vtPathRules rules;
+    vtMedia eyeMedia;    ///< what the eye is within
+    vtLighting lighting; ///< of opaque surfaces
+    int tileColumns, tileCount;
+    atomic_int nextTile;
+    atomic_bool failed; ///< memory is short
+} Job;
+
+/// Pixels first..last-1, cut at the picture's edge.
+typedef struct Tile {
+    int firstColumn, lastColumn, firstRow, lastRow;
+} Tile;
+
+static Tile makeTile(const Job* job, int index)
+{
+    const int column = index % job->tileColumns * tileSide, row = index / job->tileColumns * tileSide;
+    const int width = job->image->width, height = job->image->height;
+    return (Tile){column, column + tileSide < width ? column + tileSide : width, row,
+                  row + tileSide < height ? row + tileSide : height};
+}
+
+/// The eye ray through (x, y) in pixels from the picture's upper left corner.
+static vtVec3 eyeDirection(const Job* job, float x, float y)
+{
+    const float right = (x / (float)job->image->width * 2.0f - 1.0f) * job->tangentX;
+    const float up = (1.0f - y / (float)job->image->height * 2.0f) * job->tangentY;
+    const vtVec3 direction = vtMulAdd(job->camera.forward, right, job->camera.right);
+    return vtNormalize(vtMulAdd(direction, up, job->camera.up));
+}
+
+static size_t pixelIndex(const Job* job, int column, int row)
+{
+    return (size_t)row * (size_t)job->image->width + (size_t)column;
+}
+
+// ----------------------------------------------------------------------------------------- pixel centres
+
+static void storePath(vtReferenceImage* image, size_t pixel, const vtReferencePath* path)
+{
+    vtVec3 d = path->direction;
+    if (path->events == 0 && path->state != VT_PATH_LOST) {
+        d = (vtVec3){0.0f, 0.0f, 0.0f};
+    } else if (path->state == VT_PATH_LOST) {
+        d = (vtVec3){2.0f, 2.0f, 2.0f};
+    }
+    image->directions[3 * pixel] = d.x;
+    image->directions[3 * pixel + 1] = d.y;
+    image->directions[3 * pixel + 2] = d.z;
+    image->events[pixel] = path->events;
+    image->states[pixel] = path->state;
+    image->reflections[pixel] = path->reflected;
+}
+
+/// The pixel centres' own paths without Fresnel reflection.
+static bool traceCentres(const Job* job, const Tile* tile, vtPathList* list)
+{
+    vtPathRules rules = job->rules;
+    rules.fresnel = false;
+    vtPathList_Clear(list);
+    for (int row = tile->firstRow; row < tile->lastRow; ++row) {
+        for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
+            const vtVec3 direction = eyeDirection(job, (float)column + 0.5f, (float)row + 0.5f);
+            const vtReferencePath path = vtMakePath(job->camera.eye, direction, job->eyeMedia, list->count);
+            if (!vtPathList_Add(list, &path)) {
+                return false;
+            }
+        }
+    }
+    if (!vtFollowPaths(job->reference, &rules, list)) {
+        return false;
+    }
+    const vtReferencePath* path = list->paths;
+    for (int row = tile->firstRow; row < tile->lastRow; ++row) {
+        for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++path) {
+            storePath(job->image, pixelIndex(job, column, row), path);
+        }
+    }
+    return true;
+}
+
+// ----------------------------------------------------------------------------------------------- samples
+
+/// Sample number `index` of each pixel, where the renderer has it.
+static bool followSamples(const Job* job, const Tile* tile, int index, vtPathList* list)
+{
+    float x, y;
+    vtPixelSample(index, &x, &y);
+    vtPathList_Clear(list);
+    for (int row = tile->firstRow; row < tile->lastRow; ++row) {
+        for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
+            const vtVec3 direction = eyeDirection(job, (float)column + 0.5f + x, (float)row + 0.5f - y);
+            const vtReferencePath path = vtMakePath(job->camera.eye, direction, job->eyeMedia, list->count);
+            if (!vtPathList_Add(list, &path)) {
+                return false;
+            }
+        }
+    }
+    return vtFollowPaths(job->reference, &job->rules, list);
+}
+
+/// What a path brings to the eye.
+static vtVec3 lightOf(const Job* job, const vtReferencePath* path)
+{
+    const vtSurfaceHit* end = &path->end;
+    const vtVec3 light = path->state == VT_PATH_OPAQUE
+                             ? vtShadeSurface(job->reference->scene, &job->reference->objects[end->object],
+                                              &job->lighting, end->triangle, end->u, end->v, path->direction)
+                             : vtEnvironment_Sample(job->def->environment, path->direction);
+    return vtScale((vtVec3){light.x * path->weight.x, light.y * path->weight.y, light.z * path->weight.z},
+                   job->exposure);
+}
+
+/// Adds a sample of each of the tile's pixels: the light of all paths that branch off from one at the eye.
+static void addSamples(const Job* job, const Tile* tile, const vtPathList* list)
+{
+    vtVec3 sums[tileSide * tileSide] = {{0}};
+    for (uint32_t i = 0; i < list->count; ++i) {
+        vtVec3* sum = &sums[list->paths[i].source];
+        *sum = vtAdd(*sum, lightOf(job, &list->paths[i]));
+    }
+    const float share = 1.0f / (float)job->samples;
+    const vtVec3* sum = sums;
+    for (int row = tile->firstRow; row < tile->lastRow; ++row) {
+        for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++sum) {
+            // As add_sample.frag does, and for its reason.
+            const float most = job->samples > 1 ? 1.0f : INFINITY;
+            float* pixel = job->image->radiance + 3 * pixelIndex(job, column, row);
+            pixel[0] += fminf(sum->x, most) * share;
+            pixel[1] += fminf(sum->y, most) * share;
+            pixel[2] += fminf(sum->z, most) * share;
+        }
+    }
+}
+
+static bool traceTile(const Job* job, const Tile* tile, vtPathList* list)
+{
+    const bool onlyPicture = job->def->onlyPicture;
+    if (!onlyPicture && !traceCentres(job, tile, list)) {
+        return false;
+    }
+    if (job->image->radiance == NULL) {
+        return true;
+    }
+    // Where one sample is asked for the centres' paths are it, unless there are more than these.
+    const bool again = onlyPicture || job->samples > 1 || job->rules.fresnel;
+    for (int sample = 0; sample < job->samples; ++sample) {
+        if (again && !followSamples(job, tile, sample, list)) {
+            return false;
+        }
+        addSamples(job, tile, list);
+    }
+    return true;
+}
+
+// ----------------------------------------------------------------------------------------------- threads
+
+/// Takes tiles until none are left. Only the calling thread reports.
+static void work(Job* job, bool reports)
+{
+    vtPathList list = {0};
+    for (int index = atomic_fetch_add(&job->nextTile, 1); index < job->tileCount;
+         index = atomic_fetch_add(&job->nextTile, 1)) {
+        const Tile tile = makeTile(job, index);
+        if (atomic_load(&job->failed) || !traceTile(job, &tile, &list)) {
+            atomic_store(&job->failed, true);
+            break;
+        }
+        if (reports && job->def->progress != NULL) {
+            job->def->progress((float)index / (float)job->tileCount, job->def->userData);
+        }
+    }
+    vtDestroyPathList(&list);
+}
+
+static void* runThread(void* job)
+{
+    work(job, false);
+    return NULL;
+}
+
+static void runJob(Job* job)
+{
+    const long processors = job->def->threads > 0 ? job->def->threads : sysconf(_SC_NPROCESSORS_ONLN);
+    const int wanted = (int)vtClamp((float)processors, 1.0f, (float)VT_MAX_THREADS);
+    pthread_t threads[VT_MAX_THREADS];
+    int started = 0;
+    // A thread that cannot be had is done without: the others take its tiles.
+    while (started < wanted - 1 && pthread_create(&threads[started], NULL, runThread, job) == 0) {
+        ++started;
+    }
+    work(job, true);
+    while (started > 0) {
+        pthread_join(threads[--started], NULL);
+    }
+    if (job->def->progress != NULL) {
+        job->def->progress(1.0f, job->def->userData);
+    }
+}
+
+// ----------------------------------------------------------------------------------------------- picture
+
+static vtResult checkDef(const vtReferenceDef* def, vtError* error)
+{
+    if (def->samples < 0 || def->samples > VT_MAX_TRACED_SAMPLES) {
+        return vtFail(error, vt_errorArgument, "samples is %d; it must be 0 to %d", def->samples,
+                      VT_MAX_TRACED_SAMPLES);
+    }
+    if (def->threads < 0 || def->threads > VT_MAX_THREADS) {
+        return vtFail(error, vt_errorArgument, "threads is %d; it must be 0 to %d", def->threads,
+                      VT_MAX_THREADS);
+    }
+    return vtValidateFrame(def->frame, error);
+}
+
+static vtResult createImage(const vtReferenceDef* def, vtReferenceImage* image, vtError* error)
+{
+    const size_t count = (size_t)def->frame->width * (size_t)def->frame->height;
+    const bool centres = !def->onlyPicture;
+    *image = (vtReferenceImage){
+        .width = def->frame->width,
+        .height = def->frame->height,
+        .directions = centres ? malloc(3 * sizeof(float) * count) : NULL,
+        .events = centres ? malloc(count) : NULL,
+        .states = centres ? malloc(count) : NULL,
+        .reflections = centres ? malloc(count) : NULL,
+        .radiance = def->environment != NULL ? calloc(3 * count, sizeof(float)) : NULL,
+    };
+    const bool hasCentres = image->directions != NULL && image->events != NULL && image->states != NULL &&
+                            image->reflections != NULL;
+    if ((centres && !hasCentres) || (def->environment != NULL && image->radiance == NULL)) {
+        vtDestroyReferenceImage(image);
+        return vtFail(error, vt_errorMemory, "reference: out of memory for %d x %d", def->frame->width,
+                      def->frame->height);
+    }
+    return vtSucceed(error);
+}
+
+/// Objects of glass that contain the eye. Where there are too many, those of lowest precedence are left out.
+static vtMedia findEyeMedia(const vtReference* reference, vtVec3 eye)
+{
+    vtMedia media = {{0}};
+    for (uint32_t i = 0; i < reference->glassCount; ++i) {
+        if (vtPlacedObject_Contains(&reference->objects[i], eye)) {
+            vtMedia_Toggle(&media, i + 1);
+        }
+    }
+    return media;
+}
+
+vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* def, vtReferenceImage* image,
+                           vtError* error)
+{
+    assert(reference != NULL && def != NULL && def->frame != NULL && image != NULL);
+    assert(def->environment != NULL || !def->onlyPicture);
+    *image = (vtReferenceImage){0};
+    vtLighting lighting = {0};
+    vtResult result = checkDef(def, error);
+    const bool hasOpaque = reference->glassCount < reference->objectCount;
+    if (result == vt_ok && def->environment != NULL && hasOpaque) {
+        result = vtCreateLighting(def->environment, &lighting, error);
+    }
+    if (result == vt_ok) {
+        result = createImage(def, image, error);
+    }
+    if (result != vt_ok) {
+        vtDestroyLighting(&lighting);
+        return result;
+    }
+    const vtFrame* frame = def->frame;
+    const float tangent = tanf(frame->view.fovY * VT_PI / 360.0f);
+    const int tileColumns = (frame->width + tileSide - 1) / tileSide;
+    const int tileRows = (frame->height + tileSide - 1) / tileSide;
+    Job job = {
+        .reference = reference,
+        .def = def,
+        .image = image,
+        .camera = vtMakeCameraFrame(&frame->view),
+        .tangentX = tangent * (float)frame->width / (float)frame->height,
+        .tangentY = tangent,
+        .samples = def->samples > 1 ? def->samples : 1,
+        .exposure = exp2f(frame->exposure),
+        .rules = {frame->ior, vtResolveFrame(frame).maxEvents, def->fresnel},
+        .eyeMedia = findEyeMedia(reference, frame->view.eye),
+        .lighting = lighting,
+        .tileColumns = tileColumns,
+        .tileCount = tileColumns * tileRows,
+    };
+    atomic_init(&job.nextTile, 0);
+    atomic_init(&job.failed, false);
+    runJob(&job);
+    vtDestroyLighting(&lighting);
+    if (atomic_load(&job.failed)) {
+        vtDestroyReferenceImage(image);
+        return vtFail(error, vt_errorMemory, "reference: out of memory for paths");
+    }
+    return vt_ok;
+}

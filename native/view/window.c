@@ -1,0 +1,180 @@
+#include "view/window.h"
+
+#include "base/error.h"
+
+#if !defined(VT_WITH_GLFW)
+
+vtResult vtCreateWindow(const char* title, int width, int height, vtWindow** window, vtError* error)
+{
+    (void)title, (void)width, (void)height;
+    *window = NULL;
+    return vtFail(error, vt_errorContext, "window: this vitrine was built without GLFW (libglfw3-dev)");
+}
+void vtDestroyWindow(vtWindow* window)
+{
+    (void)window;
+}
+vtGetProcAddressFcn* vtWindow_GetProcAddress(void)
+{
+    return NULL;
+}
+bool vtWindow_Poll(vtWindow* window, vtView* view)
+{
+    (void)window, (void)view;
+    return false;
+}
+void vtWindow_GetSize(const vtWindow* window, int* width, int* height)
+{
+    (void)window;
+    *width = *height = 0;
+}
+bool vtWindow_ShouldClose(const vtWindow* window)
+{
+    (void)window;
+    return true;
+}
+void vtWindow_Present(vtWindow* window)
+{
+    (void)window;
+}
+
+#else
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <math.h>
+#include <stdlib.h>
+
+struct vtWindow {
+    GLFWwindow* handle;
+    double x, y;      // of the pointer at the last event
+    double yaw, turn; // gathered since the last poll, radians
+    double zoom;      // likewise, wheel notches
+    bool dragging, resized;
+};
+
+// One turn of the object is two and a half windows' widths of dragging.
+static const double radiansPerPixel = 0.005;
+static const double zoomPerNotch = 0.9;
+
+static void onButton(GLFWwindow* handle, int button, int action, int modifiers)
+{
+    (void)modifiers;
+    vtWindow* window = glfwGetWindowUserPointer(handle);
+    if (button == GLFW_MOUSE_BUTTON_LEFT) {
+        window->dragging = action == GLFW_PRESS;
+        glfwGetCursorPos(handle, &window->x, &window->y);
+    }
+}
+
+static void onMove(GLFWwindow* handle, double x, double y)
+{
+    vtWindow* window = glfwGetWindowUserPointer(handle);
+    if (window->dragging) {
+        window->yaw -= (x - window->x) * radiansPerPixel;
+        window->turn += (y - window->y) * radiansPerPixel;
+    }
+    window->x = x;
+    window->y = y;
+}
+
+static void onScroll(GLFWwindow* handle, double x, double y)
+{
+    (void)x;
+    vtWindow* window = glfwGetWindowUserPointer(handle);
+    window->zoom += y;
+}
+
+static void onResize(GLFWwindow* handle, int width, int height)
+{
+    (void)width, (void)height;
+    vtWindow* window = glfwGetWindowUserPointer(handle);
+    window->resized = true;
+}
+
+static GLFWwindow* openHandle(const char* title, int width, int height)
+{
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
+    GLFWwindow* handle = glfwCreateWindow(width, height, title, NULL, NULL);
+    if (handle == NULL) {
+        glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        handle = glfwCreateWindow(width, height, title, NULL, NULL);
+    }
+    return handle;
+}
+
+vtResult vtCreateWindow(const char* title, int width, int height, vtWindow** out, vtError* error)
+{
+    *out = NULL;
+    if (!glfwInit()) {
+        return vtFail(error, vt_errorContext, "window: GLFW finds no display; 'vitrine render' needs none");
+    }
+    vtWindow* window = calloc(1, sizeof *window);
+    if (window != NULL) {
+        window->handle = openHandle(title, width, height);
+    }
+    if (window == NULL || window->handle == NULL) {
+        free(window);
+        glfwTerminate();
+        return vtFail(error, vt_errorContext,
+                      "window: no OpenGL ES 3.0 or desktop GL 3.3 context can be opened");
+    }
+    glfwMakeContextCurrent(window->handle);
+    glfwSetWindowUserPointer(window->handle, window);
+    glfwSetMouseButtonCallback(window->handle, onButton);
+    glfwSetCursorPosCallback(window->handle, onMove);
+    glfwSetScrollCallback(window->handle, onScroll);
+    glfwSetFramebufferSizeCallback(window->handle, onResize);
+    window->resized = true;
+    *out = window;
+    return vtSucceed(error);
+}
+
+void vtDestroyWindow(vtWindow* window)
+{
+    if (window != NULL) {
+        glfwDestroyWindow(window->handle);
+        glfwTerminate();
+        free(window);
+    }
+}
+
+vtGetProcAddressFcn* vtWindow_GetProcAddress(void)
+{
+    return (vtGetProcAddressFcn*)glfwGetProcAddress;
+}
+
+bool vtWindow_Poll(vtWindow* window, vtView* view)
+{
+    glfwPollEvents();
+    bool moved = window->yaw != 0.0 || window->turn != 0.0 || window->zoom != 0.0;
+    if (moved) {
+        *view = vtView_Orbit(*view, (float)window->yaw, (float)window->turn);
+        *view = vtView_Zoom(*view, (float)pow(zoomPerNotch, window->zoom));
+    }
+    bool changed = moved || window->resized;
+    window->yaw = window->turn = window->zoom = 0.0;
+    window->resized = false;
+    return changed;
+}
+
+void vtWindow_GetSize(const vtWindow* window, int* width, int* height)
+{
+    glfwGetFramebufferSize(window->handle, width, height);
+}
+
+bool vtWindow_ShouldClose(const vtWindow* window)
+{
+    return glfwWindowShouldClose(window->handle);
+}
+
+void vtWindow_Present(vtWindow* window)
+{
+    glfwSwapBuffers(window->handle);
+}
+
+#endif

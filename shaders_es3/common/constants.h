@@ -1,0 +1,43 @@
+// Numbers shared by C and GLSL, beside those of src/vitrine_limits.h. Only lines that mean the same in both may stand here.
+#define VT_MAX_LAYER_GROUPS 4
+
+// A stored depth runs from 0 (near) to VT_DEPTH_SCALE (far) in 16 bits; VT_DEPTH_NONE marks "no surface".
+#define VT_DEPTH_SCALE 65534.0
+#define VT_DEPTH_NONE 65535u
+
+// Light that left a path is followed where its share is at least this; less of it comes from the environment.
+#define VT_LEAST_BRANCH 0.004
+
+// Packed normal of a texel without a surface: packSnorm2x16 never gives -32768.
+#define VT_NO_NORMAL 0x80008000u
+
+#define VT_NO_TRIANGLE 0xffffffffu
+
+// Records of hierarchies (src/mesh/hierarchy.h) lie in a texture so many to a row; four texels each. Groups of siblings
+// that may wait on a search's way down.
+#define VT_RECORD_WORDS 16
+#define VT_RECORDS_A_ROW 512
+#define VT_HIERARCHY_STACK 10
+
+// Nodes of the tree of objects (src/gl/object_tree.h): so many a row, two texels each.
+#define VT_OBJECT_NODES_A_ROW 512
+
+// The table of objects (src/gl/scene_buffer.h): RGBA32UI texels, a row of them each. Numbers are the bits of floats.
+#define VT_OBJECT_TEXELS 16
+#define VT_OBJECT_TRANSFORM 0   // three: rows of the matrix from the world to its own coordinates
+#define VT_OBJECT_GRID_LOW 3    // where the grid of its hierarchy begins, own units; number of its first record
+#define VT_OBJECT_GRID_SCALE 4  // grid steps a unit; 1 where both sides of its surface count
+#define VT_OBJECT_LOW 5         // its box, world; its diagonal
+#define VT_OBJECT_HIGH 6        // its box, world; layered: number of its layers
+#define VT_OBJECT_GLASS 7       // index of refraction, absorption a unit of length (red, green, blue)
+#define VT_OBJECT_COLOR 8       // tint or base colour; number of its first attribute record, or VT_NO_TRIANGLE
+#define VT_OBJECT_SURFACE 9     // metallic, roughness, checker squares a unit of texture coordinates, 0
+#define VT_OBJECT_EMISSIVE 10   // light of its own; 0
+#define VT_OBJECT_IMAGES 11     // base colour and metallic-roughness image, or VT_NO_TRIANGLE; 0; 0
+#define VT_OBJECT_FRUSTUM 12    // layered: tangents of its layers' frustum, left, bottom, right, top
+#define VT_OBJECT_DEPTHS 13     // layered: of that frustum: near, far, 1 / (far - near); 0
+#define VT_OBJECT_OWN_LOW 14    // box of its mesh, own coordinates; 1 where it is searched by its heights
+#define VT_OBJECT_OWN_HIGH 15   // the same; side of a cell of those heights
+
+// Attribute records: a texel a corner of a record that is a leaf, as many records a row: texture coordinates (bits of
+// floats), colour (three halves).

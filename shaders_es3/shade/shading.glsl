@@ -1,0 +1,96 @@
+// The light of opaque surfaces. The twin of src/light/shading.c, which names the sources. Wants octahedral.glsl,
+// environment.glsl, objects.glsl, records.glsl and lighting.glsl before it.
+uniform usampler2D u_attributes;  // a texel a corner of a pair: constants.h
+uniform sampler2DArray u_images;  // src/gl/image_array.h
+
+struct Attributes {
+    vec2 at;    // texture coordinates
+    vec3 color;
+    float area; // of the triangle in texture coordinates
+};
+
+vec3 cornerColor(uvec4 texel)
+{
+    return vec3(unpackHalf2x16(texel.z), unpackHalf2x16(texel.w).x);
+}
+
+// Of a triangle whose pair has that attribute record.
+Attributes attributesAt(uint record, uint second, vec3 w)
+{
+    vec2 texel = 1.0 / vec2(textureSize(u_attributes, 0));
+    vec2 place = recordPlace(record, texel);
+    uvec4 a = textureLod(u_attributes, place, 0.0);
+    uvec4 b = textureLod(u_attributes, place + vec2(float(1u + second) * texel.x, 0.0), 0.0);
+    uvec4 c = textureLod(u_attributes, place + vec2(float(2u + second) * texel.x, 0.0), 0.0);
+    vec2 A = uintBitsToFloat(a.xy), B = uintBitsToFloat(b.xy), C = uintBitsToFloat(c.xy);
+    vec2 e1 = B - A, e2 = C - A;
+    vec3 color = w.x * cornerColor(a) + w.y * cornerColor(b) + w.z * cornerColor(c);
+    return Attributes(w.x * A + w.y * B + w.z * C, color, 0.5 * abs(e1.x * e2.y - e1.y * e2.x));
+}
+
+// The scene's image; `level` of the averaged ones.
+vec3 readImage(uint image, vec2 at, float level)
+{
+    return image == VT_NO_TRIANGLE ? vec3(1.0) : textureLod(u_images, vec3(fract(at), float(image)), level).rgb;
+}
+
+// Twice the triangle's area in the world along its normal: a surface's areas turn with the transposed inverse
+// times the determinant, and the table has the inverse.
+vec3 areaInWorld(int object, vec3 area)
+{
+    vec3 x = objectNumbers(object, VT_OBJECT_TRANSFORM).xyz, y = objectNumbers(object, VT_OBJECT_TRANSFORM + 1).xyz;
+    vec3 z = objectNumbers(object, VT_OBJECT_TRANSFORM + 2).xyz;
+    return (area.x * x + area.y * y + area.z * z) / abs(dot(cross(x, y), z));
+}
+
+// Of the images' levels, the one whose texels are as large as `footprint` is where the triangle has these areas.
+float imageLevel(float footprint, float areaOfTexture, float area)
+{
+    float side = float(textureSize(u_images, 0).x);
+    float texels = footprint * side * sqrt(areaOfTexture / max(area, 1e-30));
+    return log2(max(texels, 1.0));
+}
+
+// The share of light about the mirror direction that is reflected.
+vec3 reflectedShare(vec3 F0, float roughness, float cosine)
+{
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
+    return max(F0 * (r.z - 1.04 * a) + (r.w + 1.04 * a), 0.0);
+}
+
+// Radiance that leaves an opaque object where a ray has met it, against the ray's direction I. `footprint`: how much of the world a pixel covers there, 0: images at full size.
+vec3 shadeSurface(int object, RecordHit hit, vec3 I, float footprint)
+{
+    Corners corners = recordCorners(hit.triangle);
+    vec3 area = areaInWorld(object, cornersArea(corners));
+    vec3 w = vec3(1.0 - hit.at.x - hit.at.y, hit.at);
+    vec4 surface = objectNumbers(object, VT_OBJECT_SURFACE);
+    uvec4 images = objectBits(object, VT_OBJECT_IMAGES);
+    uvec4 row = objectBits(object, VT_OBJECT_COLOR);
+    Attributes attributes = Attributes(vec2(0.0), vec3(1.0), 0.0);
+    if (row.w != VT_NO_TRIANGLE) {
+        uint record = (hit.triangle >> 1u) - objectBits(object, VT_OBJECT_GRID_LOW).w; // of the mesh's
+        attributes = attributesAt(row.w + record, hit.triangle & 1u, w);
+    }
+    float level = imageLevel(footprint, attributes.area, 0.5 * length(area));
+    vec3 base = uintBitsToFloat(row.xyz) * readImage(images.x, attributes.at, level) * attributes.color;
+    vec2 square = floor(surface.z * attributes.at);
+    if (2.0 * fract(0.5 * (square.x + square.y)) > 0.5) { // odd
+        base *= 0.15;
+    }
+    vec3 share = readImage(images.y, attributes.at, level);
+    float metallic = surface.x * share.b, roughness = surface.y * share.g;
+
+    // On the viewer's side, or the triangle's own where the interpolated one faces away.
+    vec3 G = normalize(area);
+    vec3 N = normalToWorld(readTransform(object), cornersNormal(corners, hit.at));
+    float side = dot(G, I) > 0.0 ? -1.0 : 1.0;
+    N = side * (dot(side * N, I) < 0.0 ? N : G);
+
+    float cosine = -dot(N, I);
+    vec3 F0 = mix(vec3(0.04), base, metallic);
+    vec3 diffuse = (1.0 - metallic) * base * diffuseLight(N);
+    vec3 specular = specularLight(normalize(I + 2.0 * cosine * N), roughness) * reflectedShare(F0, roughness, cosine);
+    return diffuse + specular + objectNumbers(object, VT_OBJECT_EMISSIVE).xyz;
+}

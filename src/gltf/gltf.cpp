@@ -1,0 +1,135 @@
+// glTF 2.0 to a scene, through tinygltf.
+//
+// tinygltf 2.7 turns JSON into structs but trusts the file in places (a GLB's BIN chunk is read 8 bytes too
+// far, an embedded picture is taken from wherever its offset points, an empty buffer aborts without
+// exceptions, an index above 2^32 wraps round, deep nesting overflows the stack). So it is given only what
+// was looked through: the container is split here, JSON, buffers and pictures are gltf_document.cpp's, and
+// nothing that tinygltf returns is used as an index or an offset before it was checked.
+
+#include "gltf/gltf.h"
+
+#include <cassert>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+
+namespace gltf
+{
+
+bool Loader::fail(vtResult why, const char* format, ...)
+{
+    char reason[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(reason, sizeof reason, format, arguments);
+    va_end(arguments);
+    result = vtFail(error, why, "model '%.200s': %s", def->name != nullptr ? def->name : "", reason);
+    return false;
+}
+
+bool Loader::has(const char* what, int index, size_t count)
+{
+    if (index >= 0 && (size_t)index < count) {
+        return true;
+    }
+    return fail(vt_errorFormat, "it refers to %s %d but has %zu of them" GLTF_DAMAGED, what, index, count);
+}
+
+std::string quotable(std::string text)
+{
+    for (char& c : text) {
+        c = (unsigned char)c < 32 ? ' ' : c;
+    }
+    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) {
+        text.pop_back();
+    }
+    return text.size() > 120 ? text.substr(0, 117) + "..." : text;
+}
+
+std::string label(int index, const std::string& name)
+{
+    const std::string text = quotable(name);
+    return std::to_string(index) + (text.empty() ? "" : ", " + text);
+}
+
+uint32_t readU32(const uint8_t* p)
+{
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+/// Splits a .glb into its JSON and BIN chunks; BIN may be absent.
+static bool splitGlb(Loader& loader, Bytes file, Bytes* text, Bytes* bin)
+{
+    const size_t fileHeader = 12, chunkHeader = 8;
+    if (file.size < fileHeader) {
+        return loader.fail(vt_errorFormat,
+                           "a .glb of %zu bytes ends within its header; it is truncated, copy it again",
+                           file.size);
+    }
+    const uint32_t version = readU32(file.data + 4), length = readU32(file.data + 8);
+    if (version != 2) {
+        return loader.fail(vt_errorFormat,
+                           "the .glb has version %u but only 2 is supported; export it as glTF 2.0", version);
+    }
+    if (length > file.size) {
+        return loader.fail(vt_errorFormat,
+                           "the .glb should have %u bytes but has %zu; it is truncated, copy it again",
+                           length, file.size);
+    }
+    for (size_t at = fileHeader; at < length;) {
+        const uint8_t* header = file.data + at;
+        if (length - at < chunkHeader || readU32(header) > length - at - chunkHeader) {
+            return loader.fail(vt_errorFormat,
+                               "the chunk at byte %zu reaches beyond the end of the .glb" GLTF_DAMAGED, at);
+        }
+        const Bytes chunk = {header + chunkHeader, readU32(header)};
+        if (at == fileHeader && memcmp(header + 4, "JSON", 4) == 0) {
+            *text = chunk;
+        } else if (at > fileHeader && memcmp(header + 4, "BIN\0", 4) == 0 && bin->data == nullptr) {
+            *bin = chunk;
+        } // other chunks are for others, says the standard
+        at += chunkHeader + chunk.size;
+    }
+    return text->data != nullptr ||
+           loader.fail(vt_errorFormat, "the .glb does not begin with a JSON chunk" GLTF_DAMAGED);
+}
+
+static bool splitFile(Loader& loader, Bytes* text, Bytes* bin)
+{
+    const Bytes file = {(const uint8_t*)loader.def->bytes, loader.def->size};
+    if (file.size == 0) {
+        return loader.fail(vt_errorFormat, "the file is empty; give a .glb or .gltf file");
+    }
+    if (file.size >= 4 && memcmp(file.data, "glTF", 4) == 0) {
+        return splitGlb(loader, file, text, bin);
+    }
+    size_t first = file.size >= 3 && memcmp(file.data, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; // byte order mark
+    while (first < file.size && memchr(" \t\r\n", file.data[first], 4) != nullptr) {
+        ++first;
+    }
+    if (first == file.size || file.data[first] != '{') {
+        return loader.fail(
+            vt_errorFormat,
+            "the file is not glTF (it begins neither with 'glTF' nor with '{'); give a .glb or .gltf file");
+    }
+    *text = file;
+    return true;
+}
+
+} // namespace gltf
+
+extern "C" vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error)
+{
+    assert(def != nullptr && scene != nullptr && (def->bytes != nullptr || def->size == 0));
+    *scene = vtScene{};
+    gltf::Loader loader = {def, scene, error};
+    gltf::Bytes text, bin;
+    std::vector<uint32_t> materialOf;
+    if (!splitFile(loader, &text, &bin) || !parseDocument(loader, text, bin) || !collectNodes(loader) ||
+        !makeMaterials(loader, &materialOf) || !makeMeshes(loader, materialOf) || !makeObjects(loader) ||
+        !makeCameras(loader)) {
+        vtDestroyScene(scene);
+        return loader.result;
+    }
+    return vtSucceed(error);
+}

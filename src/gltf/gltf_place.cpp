@@ -1,0 +1,170 @@
+// Objects and cameras of the scene, where its nodes put them.
+
+#include "gltf/gltf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace gltf
+{
+
+static const double pi = 3.14159265358979323846;
+
+/// "3 ('cup')", or "3" where the node has no name.
+static std::string nodeLabel(const Loader& loader, int node)
+{
+    const std::string name = quotable(loader.model.nodes[(size_t)node].name);
+    return std::to_string(node) + (name.empty() ? "" : " ('" + name + "')");
+}
+
+/// As much of a name as fits, without half a character at the end.
+static void copyName(const std::string& from, char* to, size_t capacity)
+{
+    std::string name = quotable(from);
+    if (name.size() >= capacity) {
+        size_t length = capacity - 1;
+        while (length > 0 && ((unsigned char)name[length] & 0xC0) == 0x80) { // inside one of UTF-8
+            --length;
+        }
+        name.resize(length);
+    }
+    memcpy(to, name.c_str(), name.size() + 1);
+}
+
+static bool isFinite(const Matrix& matrix)
+{
+    bool finite = true;
+    for (double number : matrix.m) {
+        finite = finite && std::isfinite((float)number);
+    }
+    return finite;
+}
+
+/// Does the world box of a mesh in its place have finite corners?
+static bool fits(const vtTransform& toWorld, const vtMesh& mesh)
+{
+    const vtVec3 a = mesh.boundsMin, b = mesh.boundsMax;
+    const float far[3] = {std::max(-a.x, b.x), std::max(-a.y, b.y), std::max(-a.z, b.z)};
+    bool finite = true;
+    for (const float* row : toWorld.rows) {
+        finite = finite && std::isfinite(std::fabs(row[0] * far[0]) + std::fabs(row[1] * far[1]) +
+                                         std::fabs(row[2] * far[2]) + std::fabs(row[3]));
+    }
+    return finite;
+}
+
+/// What the renderer can invert: the limits are those of vtValidateScene.
+static bool toTransform(Loader& loader, const Placement& at, vtTransform* transform)
+{
+    const double* m = at.toWorld.m;
+    double columns[3], rows[3];
+    for (size_t i = 0; i < 3; ++i) {
+        columns[i] = std::hypot(m[4 * i], m[4 * i + 1], m[4 * i + 2]);
+        rows[i] = std::hypot(m[i], m[4 + i], m[8 + i]);
+        for (size_t k = 0; k < 4; ++k) {
+            transform->rows[i][k] = (float)m[4 * k + i];
+        }
+    }
+    bool far = !isFinite(at.toWorld);
+    for (const uint32_t mesh : loader.sources[(size_t)at.what].meshes) {
+        far = far || !fits(*transform, loader.scene->meshes[mesh]);
+    }
+    if (far) {
+        return loader.fail(vt_errorGeometry,
+                           "node %s is scaled by %g, %g, %g or moved so far that 32-bit numbers do not hold "
+                           "it; scale the scene down",
+                           nodeLabel(loader, at.node).c_str(), columns[0], columns[1], columns[2]);
+    }
+    const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
+                               m[8] * (m[1] * m[6] - m[2] * m[5]);
+    if (!(std::fabs(determinant) > 1e-6 * rows[0] * rows[1] * rows[2]) ||
+        !std::isnormal((float)determinant)) {
+        return loader.fail(vt_errorGeometry,
+                           "node %s is scaled by %g, %g, %g along its axes in the world, which makes it "
+                           "flat; give it and those above it a scale other than 0 along each axis",
+                           nodeLabel(loader, at.node).c_str(), columns[0], columns[1], columns[2]);
+    }
+    return true;
+}
+
+bool makeObjects(Loader& loader)
+{
+    vtScene* scene = loader.scene;
+    size_t count = 0;
+    for (const Placement& at : loader.objects) {
+        count += loader.sources[(size_t)at.what].meshes.size();
+    }
+    if (count > VT_MAX_OBJECTS) {
+        return loader.fail(vt_errorGeometry,
+                           "its nodes place %zu meshes but there can be %d; join some and export it again",
+                           count, VT_MAX_OBJECTS);
+    }
+    if (!loader.allocate(count, &scene->objects)) {
+        return false;
+    }
+    for (const Placement& at : loader.objects) {
+        const Source& source = loader.sources[(size_t)at.what];
+        const std::string& own = loader.model.nodes[(size_t)at.node].name;
+        vtTransform toWorld;
+        if (!toTransform(loader, at, &toWorld)) {
+            return false;
+        }
+        for (size_t i = 0; i < source.meshes.size(); ++i) {
+            vtObject* object = &scene->objects[scene->objectCount++];
+            object->mesh = source.meshes[i];
+            object->material = source.materials[i];
+            object->toWorld = toWorld;
+            copyName(own.empty() ? loader.model.meshes[(size_t)at.what].name : own, object->name,
+                     sizeof object->name);
+        }
+    }
+    return true;
+}
+
+/// Perspective cameras; their roll is lost, since views are level.
+bool makeCameras(Loader& loader)
+{
+    vtScene* scene = loader.scene;
+    vtVec3 low, high;
+    vtScene_Bounds(scene, &low, &high);
+    const double middle[3] = {0.5 * ((double)low.x + (double)high.x), 0.5 * ((double)low.y + (double)high.y),
+                              0.5 * ((double)low.z + (double)high.z)};
+    if (!loader.allocate(loader.cameras.size(), &scene->cameras)) {
+        return false;
+    }
+    for (const Placement& at : loader.cameras) {
+        const tinygltf::Camera& camera = loader.model.cameras[(size_t)at.what];
+        if (camera.type != "perspective") {
+            continue;
+        }
+        const double yfov = camera.perspective.yfov;
+        if (!(yfov > 0.0 && yfov < pi)) {
+            return loader.fail(vt_errorFormat,
+                               "camera %s has a yfov of %g, but it must be above 0 and below pi; correct it",
+                               label(at.what, camera.name).c_str(), yfov);
+        }
+        const double* m = at.toWorld.m;
+        const double length = std::hypot(m[8], m[9], m[10]);
+        if (!isFinite(at.toWorld) || !std::isnormal(length)) {
+            return loader.fail(vt_errorGeometry,
+                               "node %s scales its camera by %g along its view; give it a scale of 1",
+                               nodeLabel(loader, at.node).c_str(), length);
+        }
+        double distance = 0.0, target[3];
+        for (size_t k = 0; k < 3; ++k) {
+            distance -= (middle[k] - m[12 + k]) * m[8 + k] / length;
+        }
+        distance = distance > 0.0 && std::isfinite((float)distance) ? distance : 1.0;
+        for (size_t k = 0; k < 3; ++k) {
+            target[k] = m[12 + k] - distance * m[8 + k] / length;
+        }
+        vtView* view = &scene->cameras[scene->cameraCount++];
+        view->eye = {(float)m[12], (float)m[13], (float)m[14]};
+        view->target = {(float)target[0], (float)target[1], (float)target[2]};
+        view->fovY = (float)std::clamp(yfov * 180.0 / pi, 1.0, 170.0);
+    }
+    return true;
+}
+
+} // namespace gltf

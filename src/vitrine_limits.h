@@ -1,0 +1,24 @@
+// Limits and codes of the public interface, which the shaders read too: only lines that mean the same in C and GLSL.
+#define VT_MAX_LAYERS 16
+#define VT_MAX_STEPS 1000
+#define VT_MAX_REFINE 32
+#define VT_MAX_EVENTS 64
+#define VT_MAX_BRANCHES 4
+#define VT_MAX_OBJECTS 1000
+
+// What became of a path: the lowest byte of its state.
+#define VT_PATH_BACKGROUND 0
+#define VT_PATH_EXITED 1
+#define VT_PATH_LOST 2
+#define VT_PATH_OPAQUE 3 // it ends on an opaque surface
+// The second byte of the state counts events; this bit is set where total internal reflection took part.
+#define VT_PATH_TIR 65536
+// From this bit on texture reads are counted where the frame asks for it, up to VT_MAX_READS.
+#define VT_PATH_READS_SHIFT 17
+#define VT_MAX_READS 32767
+
+// What a frame shows; the values of vtOutput.
+#define VT_OUTPUT_PICTURE 0
+#define VT_OUTPUT_ANALYSIS 1
+#define VT_OUTPUT_LAYER_DEPTH 2
+#define VT_OUTPUT_LAYER_NORMAL 3
