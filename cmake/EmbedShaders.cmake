@@ -66,9 +66,12 @@ foreach(source IN LISTS SOURCES)
   file(READ ${source} text)
   string(REGEX REPLACE "[ \t]*//[^\n]*" "" text "${text}")
   string(REGEX REPLACE "\n[ \t]+" "\n" text "${text}")
-  if(NOT text MATCHES "#") # a macro's name and its text must stay apart
-    string(REGEX REPLACE " *([*/=<>?:,&|(){}]) *" "\\1" text "${text}")
-  endif()
+  while(text MATCHES "#[^\n ]* ") # a macro's name and its text must stay apart
+    string(REGEX REPLACE "(#[^\n ]*) " "\\1@" text "${text}")
+  endwhile()
+  string(REGEX REPLACE " *([*/=<>?:,&|(){}]) *" "\\1" text "${text}")
+  string(REGEX REPLACE " ([+-]) ([A-Za-z0-9_(.])" "\\1\\2" text "${text}") # but not a - -b
+  string(REPLACE "@" " " text "${text}")
   if(SHORT)
     shorten(text)
   endif()

@@ -3,9 +3,9 @@
 // that the example runs anywhere, your program has its own (GLFW, SDL, EGL, a browser canvas).
 #include <stdio.h>
 #include <stdlib.h>
+#include <vitrine/vitrine.h>
 
 #include "context/context.h"
-#include "vitrine.h"
 
 static int fail(const char* doing, const vtError* error)
 {
@@ -14,17 +14,15 @@ static int fail(const char* doing, const vtError* error)
 }
 
 /// Adds a built-in shape to a scene.
-static vtResult add(vtScene* scene, const char* shape, vtMaterial material, float z, vtError* error)
+static vtResult add(vtScene* scene, const char* shape, const vtMaterial* material, float z, vtError* error)
 {
     vtMesh mesh;
-    vtScene added = {0};
-    vtTransform place = vtIdentityTransform();
-    place.rows[2][3] = z;
+    vtObject object = {.toWorld = vtIdentityTransform()};
+    object.toWorld.rows[2][3] = z;
     vtResult result = vtCreateShape(shape, &mesh, error);
-    if (result == vt_ok) {
-        result = vtCreateMeshScene(&mesh, &material, &added, error);
-    }
-    return result == vt_ok ? vtScene_Append(scene, &added, &place, error) : result;
+    result = result == vt_ok ? vtScene_AddMesh(scene, &mesh, &object.mesh, error) : result;
+    result = result == vt_ok ? vtScene_AddMaterial(scene, material, &object.material, error) : result;
+    return result == vt_ok ? vtScene_AddObject(scene, &object, NULL, error) : result;
 }
 
 int main(int argc, char** argv)
@@ -51,8 +49,8 @@ int main(int argc, char** argv)
     glass.ior = 1.52f;
     clay.opaque = true;
     clay.baseColor = (vtVec3){0.8f, 0.3f, 0.1f};
-    if (add(&scene, "goblet", glass, 0.0f, &error) != vt_ok ||
-        add(&scene, "knot", clay, -2.5f, &error) != vt_ok ||
+    if (add(&scene, "goblet", &glass, 0.0f, &error) != vt_ok ||
+        add(&scene, "knot", &clay, -2.5f, &error) != vt_ok ||
         vtCreateEnvironment("studio", &environment, &error) != vt_ok ||
         vtRenderer_SetScene(renderer, &scene, &error) != vt_ok ||
         vtRenderer_SetEnvironment(renderer, &environment, &error) != vt_ok) {
@@ -63,7 +61,7 @@ int main(int argc, char** argv)
     vtFrame frame = vtDefaultFrame();
     frame.width = width;
     frame.height = height;
-    frame.view = vtFrameScene(&scene, 45.0f, (float)width / height);
+    frame.view = vtViewOfScene(&scene, 45.0f, (float)width / height);
     static uint8_t pixels[width * height * 4];
     if (vtRenderer_DrawImage(renderer, &frame, pixels, &error) != vt_ok) {
         return fail("draw", &error);

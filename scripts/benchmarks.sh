@@ -16,6 +16,12 @@ done
 common=(--rendering-backend "$backend" --rounds "${ROUNDS:-9}" --camera 0.36,0.3,3.05 --target 0,0,0)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+# sweep NAME MODEL OPTIONS...: its table, and its plot beside the docs' other pictures.
+sweep() {
+  "$vitrine" bench "$2" "${common[@]}" --sweep "$1" "${@:3}" --json --table "$scratch/$1.md" >"$scratch/$1.json"
+  node scripts/plot.mjs "$scratch/$1.json" "$scratch/bench-$1.svg"
+  cat "$scratch/$1.md"
+}
 {
   cat <<'TEXT'
 # Benchmarks
@@ -40,9 +46,9 @@ TEXT
     "$vitrine" bench "$model" "${common[@]}"
   done
   printf '\n## Triangles\n\nThe knot in ever more triangles; the picture hardly changes.\n\n![time over triangles](pictures/bench-triangles.svg)\n\n'
-  "$vitrine" bench knot "${common[@]}" --sweep triangles --plot "$scratch/bench-triangles.svg"
+  sweep triangles knot
   printf '\n## Resolution\n\n![time over pixels](pictures/bench-resolution.svg)\n\n'
-  "$vitrine" bench knot "${common[@]}" --sweep resolution --plot "$scratch/bench-resolution.svg"
+  sweep resolution knot
   cat <<'TEXT'
 
 ## Objects
@@ -55,9 +61,9 @@ object; copies share all memory of their mesh, Embree's too, which finds them by
 ![time over objects](pictures/bench-objects.svg)
 
 TEXT
-  "$vitrine" bench knot "${common[@]}" --sweep objects --plot "$scratch/bench-objects.svg"
+  sweep objects knot
   printf '\n![time over objects, one behind the other](pictures/bench-depth.svg)\n\n'
-  "$vitrine" bench knot "${common[@]}" --sweep depth --max-events 64 --plot "$scratch/bench-depth.svg"
+  sweep depth knot --max-events 64
   cat <<'TEXT'
 
 ## Reliefs
@@ -70,7 +76,7 @@ GPU; *GPU memory* that of the same there; *triangulation* makes the mesh, *uploa
 ![time over samples](pictures/bench-relief.svg)
 
 TEXT
-  "$vitrine" bench ripples "${common[@]}" --sweep relief --plot "$scratch/bench-relief.svg"
+  sweep relief ripples
 } >"$scratch/benchmarks.md"
 mv "$scratch"/bench-*.svg docs/pictures/
 mv "$scratch/benchmarks.md" docs/benchmarks.md

@@ -165,11 +165,11 @@ ${cssProperties.map(({ name, description }) => `- \`${name}\`: ${description}`).
 `;
 }
 
-/** Types, manifest and page of the element whose table lies at `path`. */
+/** The element's table, types, manifest and page; the table lies at `path`. */
 export async function describeElement(path) {
   // As a data URL it is a module for Node 18 too, which otherwise asks for a package.json beside it.
   const { attributes } = await import(`data:text/javascript;base64,${readFileSync(path).toString('base64')}`);
-  return { types: makeTypes(attributes), manifest: makeManifest(attributes), page: makePage(attributes) };
+  return { attributes, types: makeTypes(attributes), manifest: makeManifest(attributes), page: makePage(attributes) };
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

@@ -18,19 +18,34 @@ mkdirSync(folder, { recursive: true });
 cpSync(join(web, 'vitrine-core.wasm'), join(folder, 'vitrine-core.wasm'));
 const small = { format: 'esm', minify: true, target: 'es2022', logLevel: 'warning' };
 await build({ ...small, entryPoints: [join(web, 'vitrine-core.js')], outdir: folder });
+const { attributes, types, manifest } = await describeElement(join(web, 'element/attributes.js'));
+
+/** Leaves out what the attributes are, in words: only the documentation reads it. */
+const withoutDescriptions = {
+  name: 'without descriptions',
+  setup({ onLoad }) {
+    onLoad({ filter: /element\/attributes\.js$/ }, ({ path }) => {
+      const source = readFileSync(path, 'utf8');
+      return { contents: attributes.reduce((text, { description }) => text.replace(`'${description}'`, "''"), source) };
+    });
+  },
+};
+
 // The element's modules in one: together they compress better, and a page waits for one only.
 await build({
   ...small,
   entryPoints: [join(web, 'element/vitrine-viewer.js')],
   bundle: true,
   external: ['../vitrine-core.js'],
+  plugins: [withoutDescriptions],
   outdir: join(folder, 'element'),
 });
 
-const { types, manifest } = await describeElement(join(web, 'element/attributes.js'));
 writeFileSync(join(folder, 'index.d.ts'), types);
 writeFileSync(join(folder, 'custom-elements.json'), `${JSON.stringify(manifest, null, 2)}\n`);
 cpSync(join(root, 'docs/web.md'), join(folder, 'README.md'));
+cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
+cpSync(join(web, 'NOTICES.txt'), join(folder, 'NOTICES.txt'));
 
 // One file with everything in it, for a <script type="module"> from anywhere.
 await build({
@@ -54,6 +69,7 @@ writeFileSync(
       name: 'vitrine-viewer',
       version,
       description: 'A custom element that draws a mesh in real-time glass, refraction by refraction',
+      license: 'MIT',
       type: 'module',
       main: './element/vitrine-viewer.js',
       types: './index.d.ts',
@@ -64,7 +80,7 @@ writeFileSync(
         './custom-elements.json': './custom-elements.json',
       },
       sideEffects: ['./element/vitrine-viewer.js', './vitrine-viewer.bundle.js'],
-      files: ['element', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-viewer.bundle.js', 'index.d.ts', 'custom-elements.json'],
+      files: ['element', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-viewer.bundle.js', 'index.d.ts', 'custom-elements.json', 'NOTICES.txt'],
       customElements: 'custom-elements.json',
       keywords: ['glass', 'refraction', 'webgl', 'wasm', 'gltf', 'custom-element', 'web-components'],
     },

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 /// Vitrine: real-time glass through OpenGL ES 3.0.
 ///
 /// This header alone is enough to embed the renderer. The order of use:
@@ -10,10 +12,21 @@
 ///   6. vtDestroyRenderer, with the same context current.
 ///
 /// Conventions: right-handed world, +Y up, lengths in the model's own unit. Structs are plain data; a
-/// struct from vtDefault... holds the documented defaults. A function that can fail for a reason outside
-/// the program (data, files, GL) returns a vtResult and writes one sentence into the vtError; misuse of
-/// the API itself is caught by assert. Nothing here keeps a pointer of the caller's after it returns.
-/// There is no global state: many renderers can live side by side, each used with its own context.
+/// struct from vtDefault... holds the documented defaults. A function that can fail returns a vtResult and
+/// writes one sentence into the vtError. Misuse is such a failure, too: NULL, numbers out of range, structs
+/// that are zeroed or destroyed give vt_errorArgument or what the function documents; a function without a
+/// result does nothing then, or returns something neutral. Pointers to memory that is gone, and arrays
+/// shorter than their counts say, are beyond what is noticed. Nothing here keeps a pointer of the caller's
+/// after it returns, but for vtPreparation and vtTracer. Nothing is printed. There is no global state but
+/// vtSetAllocator's: many renderers can live side by side, each used with its own context.
+///
+/// Threads: the library starts none and locks nothing. Any functions may run at the same time in several
+/// threads as long as what one of them changes (a pointer to what is not const) is not used by another. So
+/// several may read one mesh, scene or environment, or trace paths by one vtTracer, which vtTracer_Path does
+/// not change; vtPreparation_Step changes the scene. A vtRenderer is used by one thread at a time, that in
+/// which its context is current; renderers of different contexts do not know of each other. A vtError is for
+/// one thread. Functions of the caller's (vtAllocator, vtReadFileFcn, vtStageFcn) are called in the thread
+/// that called the library. vtSetAllocator is called while no other thread is in the library.
 #pragma once
 
 #include <stdbool.h>
@@ -22,15 +35,24 @@
 
 #include "vitrine_limits.h" // VT_MAX_LAYERS and the other limits, shared with the shaders
 
-#ifndef __EMSCRIPTEN__
-#define VT_WITH_CELLS ///< vt_searchCells; web pages search in steps whatever vtFrame.search says
-#endif
-
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+/// Before a function that a shared library exports.
+#ifdef __GNUC__
+#define VT_API __attribute__((visibility("default")))
+#else
+#define VT_API
+#endif
+
+#define VT_VERSION_MAJOR 0
+#define VT_VERSION_MINOR 1
+#define VT_VERSION_PATCH 0
 #define VT_VERSION "0.1.0"
+
+/// VT_VERSION of the library that is linked; the macros are this header's.
+VT_API const char* vtVersion(void);
 
 // ---------------------------------------------------------------------------------------------- errors
 
@@ -51,6 +73,32 @@ typedef struct vtError {
     char message[1024];
 } vtError;
 
+// ---------------------------------------------------------------------------------------------- memory
+
+/// Where the library's memory comes from. All three are needed; userData is passed to each. They may be
+/// called by every thread that calls the library.
+typedef struct vtAllocator {
+    void* (*allocate)(size_t size, void* userData);                 ///< as malloc; size is never 0
+    void* (*reallocate)(void* memory, size_t size, void* userData); ///< as realloc; neither is ever 0
+    void (*free)(void* memory, void* userData);                     ///< memory is never NULL
+    void* userData;
+} vtAllocator;
+
+/// Takes the memory of the library, and of its files' decoders, from `allocator`, which is copied; NULL: from
+/// malloc, realloc and free, as without this call. What vtLoadScene needs only while it runs comes from
+/// operator new as well. This is the one setting of the whole process: call it before anything else is
+/// called, and never while something lives that was allocated. Fails with vt_errorArgument where a function
+/// is NULL.
+VT_API vtResult vtSetAllocator(const vtAllocator* allocator, vtError* error);
+
+/// count * size bytes for what the library shall free: contents of files (vtReadFileFcn), and arrays that a
+/// caller puts into a vtMesh, vtScene, vtImage or vtEnvironment. NULL where memory is out or the product is
+/// more than size_t can hold.
+VT_API void* vtAllocate(size_t count, size_t size);
+
+/// Frees what vtAllocate or the library gave. Safe on NULL.
+VT_API void vtFree(void* memory);
+
 // ------------------------------------------------------------------------------------------------ mesh
 
 typedef struct vtVec3 {
@@ -63,9 +111,13 @@ typedef struct vtMeshDef {
     const float* normals;   ///< 3 * vertexCount, outward, need not be unit; NULL: computed (see vtCreateMesh)
     const uint32_t* indices; ///< indexCount, counter-clockwise seen from outside; NULL: 0, 1, 2, ...
     uint32_t vertexCount;
-    uint32_t indexCount;    ///< a multiple of 3
-    const float* texcoords; ///< 2 * vertexCount, (0, 0) the picture's upper left corner; NULL: none
-    const float* colors;    ///< 3 * vertexCount, linear, 0 to 1; NULL: white
+    uint32_t indexCount;       ///< a multiple of 3
+    const float* texcoords;    ///< 2 * vertexCount, (0, 0) the picture's upper left corner; NULL: none
+    const float* colors;       ///< 3 * vertexCount, linear, 0 to 1; NULL: white
+    const uint16_t* indices16; ///< in place of `indices`; NULL: none
+    /// Bytes from a vertex's numbers to the next one's, a multiple of 4 and at least those numbers' own; 0:
+    /// their own, so that they lie side by side.
+    uint32_t positionStride, normalStride, texcoordStride, colorStride;
 } vtMeshDef;
 
 /// A validated triangle mesh. Read it freely; change it only through the functions below.
@@ -76,6 +128,7 @@ typedef struct vtMesh {
     uint32_t vertexCount;
     uint32_t indexCount;
     vtVec3 boundsMin, boundsMax;
+    double volume; ///< that the surface encloses; of an open one, that its triangles would with a point
     bool normalsComputed;   ///< the input had no normals (or some of zero length)
     uint32_t openEdgeCount; ///< edges, over welded positions, without an opposite twin; 0: closed
     /// For technique `wyman`: distance from each vertex inwards along its normal to the next surface,
@@ -91,32 +144,34 @@ typedef struct vtMesh {
 
 /// Copies and checks triangles. Missing normals are computed as angle-weighted means over welded
 /// positions (Thurmer & Wuthrich 1998), which is what the truth images of the tests use.
-/// Fails with vt_errorGeometry for no triangles, an index out of range, or a NaN or infinite number.
+/// Fails with vt_errorGeometry for no triangles, an index out of range, or a NaN or infinite number, with
+/// vt_errorArgument for a stride that is none or both kinds of indices.
 /// `name` goes into the error sentence. On failure *mesh is zeroed.
-vtResult vtCreateMesh(const vtMeshDef* def, const char* name, vtMesh* mesh, vtError* error);
+VT_API vtResult vtCreateMesh(const vtMeshDef* def, const char* name, vtMesh* mesh, vtError* error);
 
 /// Fills mesh->innerDistances (Wyman 2005's d_N) by tracing a ray from each vertex; 0 where it meets nothing.
 /// Does nothing where they are there already. About a second for 100,000 triangles.
-vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error);
+VT_API vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error);
 
 /// One of the built-in shapes: sphere torus knot goblet bottle diamond cube plane tumbler water; all but the
 /// plane are closed and outward. Tumbler and water fit one in the other. Fails with vt_errorArgument for
 /// another name.
-vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error);
+VT_API vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error);
 
 /// Names of the built-in shapes, by index; NULL past the end. `vtShapeSummary` says what each is.
-const char* vtShapeName(int index);
-const char* vtShapeSummary(int index);
+VT_API const char* vtShapeName(int index);
+VT_API const char* vtShapeSummary(int index);
 
 /// Moves a mesh's vertices: new positions and normals, 3 * vertexCount each; normals NULL: computed. Its
 /// hierarchy, where it has one, is refitted, or built anew where the moves have made it half as costly again
 /// as it was; bounds follow, inner distances and a relief's heights go. A mesh with triangles of no area is
-/// always built anew: they may get one. vtRenderer_UpdateMesh draws it so. Fails with vt_errorGeometry for a
-/// NaN or infinite number or a mesh without triangles, the mesh as it was, or with vt_errorMemory.
-vtResult vtMesh_Update(vtMesh* mesh, const float* positions, const float* normals, vtError* error);
+/// always built anew: they may get one. vtRenderer_UpdateGeometry draws it so. Fails with vt_errorGeometry
+/// for a NaN or infinite number or a mesh without triangles, the mesh as it was. After vt_errorMemory the
+/// mesh is to be updated again or destroyed.
+VT_API vtResult vtMesh_Update(vtMesh* mesh, const float* positions, const float* normals, vtError* error);
 
-/// Frees what the mesh holds and zeroes it. Safe on a zeroed mesh.
-void vtDestroyMesh(vtMesh* mesh);
+/// Frees what the mesh holds and zeroes it. Safe on NULL and on a zeroed mesh.
+VT_API void vtDestroyMesh(vtMesh* mesh);
 
 // ---------------------------------------------------------------------------------------------- relief
 
@@ -137,32 +192,32 @@ typedef struct vtReliefDef {
     /// vtLoadRelief only.
     float smoothing;
 } vtReliefDef;
-vtReliefDef vtDefaultRelief(void);
+VT_API vtReliefDef vtDefaultRelief(void);
 
 /// A mesh of these heights. It has bounds, but no triangles: technique `heightfield` needs none, the others
 /// do (vtTriangulateRelief). Fails with vt_errorGeometry or vt_errorArgument for numbers out of range; `name`
 /// goes into the sentence. On failure *mesh is zeroed.
-vtResult vtCreateRelief(const vtReliefDef* def, const char* name, vtMesh* mesh, vtError* error);
+VT_API vtResult vtCreateRelief(const vtReliefDef* def, const char* name, vtMesh* mesh, vtError* error);
 
 /// The same of a file held in memory: .png or .jpg of 8 or 16 bits, black 0 and white 1, colours by their
 /// luma; .hdr or .pfm, the least number 0 and the greatest 1. A build for web pages decodes the last two
 /// only.
-vtResult vtLoadRelief(const void* bytes, size_t size, const char* name, const vtReliefDef* def, vtMesh* mesh,
-                      vtError* error);
+VT_API vtResult vtLoadRelief(const void* bytes, size_t size, const char* name, const vtReliefDef* def,
+                             vtMesh* mesh, vtError* error);
 
 /// The same of a built-in pattern: ripples hammered fluted lens-array. def->width and height are its samples;
 /// 0: 512.
-vtResult vtCreateReliefPattern(const char* name, const vtReliefDef* def, vtMesh* mesh, vtError* error);
+VT_API vtResult vtCreateReliefPattern(const char* name, const vtReliefDef* def, vtMesh* mesh, vtError* error);
 
 /// Names of the patterns, by index; NULL past the end.
-const char* vtReliefPatternName(int index);
-const char* vtReliefPatternSummary(int index);
+VT_API const char* vtReliefPatternName(int index);
+VT_API const char* vtReliefPatternSummary(int index);
 /// The depth at which the pattern looks as such glass is made.
-float vtReliefPatternDepth(int index);
+VT_API float vtReliefPatternDepth(int index);
 
 /// Gives a relief its triangles, two a cell of the front; 4096 x 4096 samples are 33.5 million and 1.2 GB.
 /// Does nothing where they are there already or the mesh is no relief.
-vtResult vtTriangulateRelief(vtMesh* mesh, vtError* error);
+VT_API vtResult vtTriangulateRelief(vtMesh* mesh, vtError* error);
 
 // ----------------------------------------------------------------------------------------------- scene
 
@@ -188,6 +243,7 @@ typedef struct vtMaterial {
 typedef struct vtImage {
     uint8_t* pixels; ///< RGBA, 4 * width * height, top row first; NULL: not decoded, drawn as white
     int width, height;
+    bool linear;    ///< numbers (metallic and roughness), not colours; only vtRenderer_SetImages looks at it
     uint8_t* bytes; ///< a .png or .jpg, where this build cannot decode it (web pages); else NULL
     size_t size;
 } vtImage;
@@ -218,29 +274,38 @@ typedef struct vtScene {
     bool allGlass; ///< the file said of none of its materials that it is glass, so all were made glass
 } vtScene;
 
-vtMaterial vtDefaultMaterial(void);
-vtTransform vtIdentityTransform(void);
+VT_API vtMaterial vtDefaultMaterial(void);
+VT_API vtTransform vtIdentityTransform(void);
 
 /// A scene of one object. Takes the mesh over (and zeroes *mesh) unless it fails, with vt_errorMemory.
-vtResult vtCreateMeshScene(vtMesh* mesh, const vtMaterial* material, vtScene* scene, vtError* error);
+VT_API vtResult vtCreateMeshScene(vtMesh* mesh, const vtMaterial* material, vtScene* scene, vtError* error);
+
+/// Adds to a scene, {0} to begin with: a mesh, which the scene takes over (and *mesh is zeroed) unless it
+/// fails; a material; an object of meshes and materials that are there. *index: its number; of an object NULL
+/// will do. Fails with vt_errorMemory or vt_errorArgument, the scene as it was.
+VT_API vtResult vtScene_AddMesh(vtScene* scene, vtMesh* mesh, uint32_t* index, vtError* error);
+VT_API vtResult vtScene_AddMaterial(vtScene* scene, const vtMaterial* material, uint32_t* index,
+                                    vtError* error);
+VT_API vtResult vtScene_AddObject(vtScene* scene, const vtObject* object, uint32_t* index, vtError* error);
 
 /// Moves all that `other` has into the scene, its objects placed by `transform`, and zeroes it; cameras are
-/// kept as they are. On failure (vt_errorMemory) both stay as they were.
-vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* transform, vtError* error);
+/// kept as they are. On failure (vt_errorMemory, or vt_errorArgument where both are one or have more than
+/// 2^31 of something) both stay as they were.
+VT_API vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* transform, vtError* error);
 
 /// Fails with vt_errorGeometry and a sentence where the scene cannot be drawn: no object, a scale of zero, a
-/// mesh or material that is not there, glass without a volume (open edges) inside other glass.
-/// vtRenderer_SetScene does it, too.
-vtResult vtValidateScene(const vtScene* scene, vtError* error);
+/// mesh, material or image that is not there, a mesh without triangles or heights, glass without a volume
+/// (open edges) inside other glass. vtRenderer_SetScene does it, too.
+VT_API vtResult vtValidateScene(const vtScene* scene, vtError* error);
 
-/// The scene's box in world coordinates: of its glass, or of all where it has none.
-void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boundsMax);
+/// The scene's box in world coordinates: of its glass, or of all where it has none; zeros without an object.
+VT_API void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boundsMax);
 
-/// Frees what the scene holds and zeroes it. Safe on a zeroed scene.
-void vtDestroyScene(vtScene* scene);
+/// Frees what the scene holds and zeroes it. Safe on NULL and on a zeroed scene.
+VT_API void vtDestroyScene(vtScene* scene);
 
 /// Reads a whole file for the scene loader (external buffers of a .gltf). On success returns true with
-/// *bytes allocated by malloc; the loader frees it.
+/// *bytes from vtAllocate (or NULL of 0 bytes), which the loader frees by vtFree.
 typedef bool vtReadFileFcn(const char* path, uint8_t** bytes, size_t* size, void* userData);
 
 typedef struct vtModelDef {
@@ -256,7 +321,7 @@ typedef struct vtModelDef {
 /// with KHR_materials_transmission are glass; where the file has none such, all of them are made glass of
 /// their index of refraction. Primitives of one glTF mesh with the same material make one mesh; nodes that
 /// share it are instances. On failure *scene is zeroed.
-vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error);
+VT_API vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error);
 
 // ----------------------------------------------------------------------------------------- environment
 
@@ -276,21 +341,22 @@ typedef struct vtEnvironment {
 } vtEnvironment;
 
 /// A built-in environment by name: checker studio sky. Evaluated per pixel, crisp at any resolution.
-vtResult vtCreateEnvironment(const char* name, vtEnvironment* environment, vtError* error);
-const char* vtEnvironmentName(int index);
-const char* vtEnvironmentSummary(int index);
+VT_API vtResult vtCreateEnvironment(const char* name, vtEnvironment* environment, vtError* error);
+VT_API const char* vtEnvironmentName(int index);
+VT_API const char* vtEnvironmentSummary(int index);
 
 /// Decodes a .hdr (linear), .png or .jpg (sRGB, converted to linear) held in memory.
-vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtEnvironment* environment,
-                           vtError* error);
-
-/// The same of pixels that are decoded already: 8-bit sRGB, RGBA, top row first; alpha is not looked at.
-vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, const char* name,
+VT_API vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name,
                                   vtEnvironment* environment, vtError* error);
 
-/// Radiance arriving from a unit direction; the same numbers as the shaders give.
-vtVec3 vtEnvironment_Sample(const vtEnvironment* environment, vtVec3 direction);
-void vtDestroyEnvironment(vtEnvironment* environment);
+/// The same of pixels that are decoded already: 8-bit sRGB, RGBA, top row first; alpha is not looked at.
+VT_API vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, const char* name,
+                                         vtEnvironment* environment, vtError* error);
+
+/// Radiance arriving from a unit direction; the same numbers as the shaders give. Black of none.
+VT_API vtVec3 vtEnvironment_Sample(const vtEnvironment* environment, vtVec3 direction);
+/// Frees what it holds and zeroes it. Safe on NULL and on a zeroed one.
+VT_API void vtDestroyEnvironment(vtEnvironment* environment);
 
 // ------------------------------------------------------------------------------------------------ view
 
@@ -304,16 +370,16 @@ typedef struct vtView {
 
 /// A view that shows the whole mesh with some margin, from slightly above and to the right. `fovY` in
 /// degrees, `aspect` is width over height.
-vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect);
+VT_API vtView vtViewOfMesh(const vtMesh* mesh, float fovY, float aspect);
 
 /// Turns the eye about the target: `yaw` about +Y, `pitch` upwards, radians; stops short of the poles.
-vtView vtView_Orbit(vtView view, float yaw, float pitch);
+VT_API vtView vtView_Orbit(vtView view, float yaw, float pitch);
 
 /// The same for the scene's glass, or all of it where there is none.
-vtView vtFrameScene(const vtScene* scene, float fovY, float aspect);
+VT_API vtView vtViewOfScene(const vtScene* scene, float fovY, float aspect);
 
 /// Moves the eye towards (factor < 1) or away from (factor > 1) the target.
-vtView vtView_Zoom(vtView view, float factor);
+VT_API vtView vtView_Zoom(vtView view, float factor);
 
 // ------------------------------------------------------------------------------------------- rendering
 
@@ -339,27 +405,27 @@ typedef struct vtTechniqueInfo {
     int year;
     bool refracts; ///< false where it only blends
 } vtTechniqueInfo;
-const vtTechniqueInfo* vtTechnique_Info(vtTechnique technique);
+VT_API const vtTechniqueInfo* vtTechnique_Info(vtTechnique technique); ///< NULL of another
 
 /// The technique of that id, or vt_techniqueCount.
-vtTechnique vtFindTechnique(const char* id);
+VT_API vtTechnique vtFindTechnique(const char* id);
 
 /// Gives the scene's meshes what a technique needs and they lack: `wyman` inner distances, all but
 /// `heightfield` (of the first relief) triangles. *changed (may be NULL): whether there was something. Fails
 /// as vtComputeInnerDistances and vtTriangulateRelief do.
-vtResult vtPrepareScene(vtScene* scene, vtTechnique technique, bool* changed, vtError* error);
+VT_API vtResult vtPrepareScene(vtScene* scene, vtTechnique technique, bool* changed, vtError* error);
 
 /// Builds the hierarchies that `exact` searches, which vtRenderer_SetScene builds itself where they are not
 /// there, in slices, so that a page or a window goes on meanwhile. The scene must stay as it is until the
-/// end. NULL where memory is out.
+/// end. NULL where memory is out, or of NULL.
 typedef struct vtPreparation vtPreparation;
-vtPreparation* vtBeginPreparation(vtScene* scene);
+VT_API vtPreparation* vtBeginPreparation(vtScene* scene);
 /// Does about `work` units, a unit about the look at one triangle (some 50 ns); true once nothing is left to
 /// do.
-bool vtPreparation_Step(vtPreparation* preparation, uint32_t work);
+VT_API bool vtPreparation_Step(vtPreparation* preparation, uint32_t work);
 /// Ends it, done or not; what has been built stays with the meshes. Fails as building did: vt_errorMemory, or
 /// vt_errorGeometry for more triangles than a hierarchy can hold (about 8 million).
-vtResult vtEndPreparation(vtPreparation* preparation, vtError* error);
+VT_API vtResult vtEndPreparation(vtPreparation* preparation, vtError* error);
 
 typedef enum vtOutput {
     vt_outputPicture = VT_OUTPUT_PICTURE,   ///< the glass before its environment, sRGB
@@ -381,7 +447,7 @@ typedef enum vtOutput {
 typedef enum vtPreset { vt_presetLow = 0, vt_presetMedium, vt_presetHigh, vt_presetCount } vtPreset;
 
 /// "low", "medium", "high"; NULL past the end.
-const char* vtPresetName(int index);
+VT_API const char* vtPresetName(int index);
 
 /// How `layered` takes several objects of glass.
 typedef enum vtMulti {
@@ -443,6 +509,25 @@ typedef struct vtFrame {
                  ///< the picture take one. Default 1, the pixel's centre
     int firstSample;      ///< 0 to 1000000: number of the first of them, see vtRenderer_Draw; default 0
     uint32_t framebuffer; ///< GL name of the framebuffer drawn to by vtRenderer_Draw; 0 is the default one
+    int x, y;             ///< lower left corner of the picture in it, pixels, -16384 to 16384; default 0, 0
+    /// Linear light, not cut at white, in place of sRGB: for a framebuffer of floats. Default false
+    bool linear;
+    /// The view as GL's matrices, column-major, in place of `view`: from the world to the eye (a rotation and
+    /// a shift), and from there to clip coordinates: perspective, off-axis too, or orthographic (techniques
+    /// that peel no layers). Both or none; NULL, the default: `view`
+    const float *viewMatrix, *projectionMatrix;
+    /// Over what the framebuffer has: drawn only where there is something of the scene, blended at its edges,
+    /// tested against the framebuffer's depth, if it has any, and written with its own. Needs the matrices,
+    /// and a technique with a first surface (not kay's). A build for web pages has none of this.
+    /// Default false
+    bool overlay;
+    /// GL names of 2-D textures with the host's picture and its depth, as large as the framebuffer, which
+    /// must not be that framebuffer's own: what lies behind the glass, seen through it wherever the bent ray
+    /// comes to lie behind what is drawn there, and with `overlay` what hides it; where the ray leaves the
+    /// picture or passes behind something there is the environment. Depths need the matrices; without them
+    /// all of the picture is infinitely far away. 0, the default: none
+    uint32_t hostColor, hostDepth;
+    bool hostLinear; ///< hostColor reads as linear light (floats, sRGB formats); else as sRGB. Default false
     /// For measurements: called when the GL commands of a stage have been issued. Default NULL.
     vtStageFcn* stageDone;
     void* stageData; ///< passed to stageDone
@@ -450,13 +535,13 @@ typedef struct vtFrame {
 } vtFrame;
 
 /// 512 x 512, technique exact, and the defaults documented at each field; the view looks at the origin.
-vtFrame vtDefaultFrame(void);
+VT_API vtFrame vtDefaultFrame(void);
 
 /// The frame with every 0 that leaves a setting to the preset replaced by what it stands for.
-vtFrame vtResolveFrame(const vtFrame* frame);
+VT_API vtFrame vtResolveFrame(const vtFrame* frame);
 
 /// Checks every field against its documented range; the sentence names field, value and range.
-vtResult vtValidateFrame(const vtFrame* frame, vtError* error);
+VT_API vtResult vtValidateFrame(const vtFrame* frame, vtError* error);
 
 /// One meeting of a path with a surface.
 typedef struct vtPathEvent {
@@ -475,12 +560,23 @@ typedef struct vtPath {
     vtVec3 end;
 } vtPath;
 
-/// The exact path of the eye ray through a point of the picture, x from the left and y from the top in
-/// pixels (pixel centres at .5), traced on the CPU: what the techniques imitate. frame gives view, ior, size
-/// and maxEvents. Only where indices differ there is an event; where light could pass it does. Builds
-/// the hierarchies that the meshes lack each time.
-vtResult vtTracePath(const vtScene* scene, const vtFrame* frame, float x, float y, vtPath* path,
-                     vtError* error);
+/// Traces exact paths through a scene on the CPU: what the techniques imitate. It builds the hierarchies that
+/// the meshes lack once (a second for a few million triangles); then a path takes microseconds.
+typedef struct vtTracer vtTracer;
+
+/// Fails as vtValidateScene does, or as building a hierarchy does (vtEndPreparation). The tracer points into
+/// the scene: destroy it before the scene is moved, changed (by vtMesh_Update, too) or destroyed. On failure
+/// *tracer is NULL.
+VT_API vtResult vtCreateTracer(const vtScene* scene, vtTracer** tracer, vtError* error);
+
+/// The path of the eye ray through a point of the picture, x from the left and y from the top in pixels
+/// (pixel centres at .5). frame gives view, ior, size and maxEvents. Only where indices differ there is an
+/// event; where light could pass it does. Fails with vt_errorArgument.
+VT_API vtResult vtTracer_Path(const vtTracer* tracer, const vtFrame* frame, float x, float y, vtPath* path,
+                              vtError* error);
+
+/// Safe on NULL.
+VT_API void vtDestroyTracer(vtTracer* tracer);
 
 typedef void (*vtProc)(void);
 typedef vtProc vtGetProcAddressFcn(const char* name);
@@ -502,52 +598,119 @@ typedef struct vtRendererInfo {
     int layerWidth, layerHeight; ///< of the last frame, texels
 } vtRendererInfo;
 
-/// In the current context. Fails with vt_errorContext and the reason.
-vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** renderer, vtError* error);
-/// Frees all GL objects; the same context must be current. Safe on NULL.
-void vtDestroyRenderer(vtRenderer* renderer);
+/// GL's state. Every call on a renderer takes over the state that it depends on, whatever the host left; it
+/// must not be made while transform feedback or a conditional rendering is active. Afterwards the host finds:
+/// - bound to nothing: vertex array, program, array, uniform and pixel (un)pack buffers, samplers of texture
+///   units 0 to 31; and uniform buffer binding 0 changed; texture units 0 to 31 may hold textures of the
+///   renderer's, unit 0 is active;
+/// - switched off: blending, culling, depth, scissor and stencil test, dithering, polygon offset, rasteriser
+///   discard, sample coverage and alpha to coverage, primitive restart; on desktop GL also sRGB framebuffers
+///   and the logic operation;
+/// - depth function less, depth and colour masks all on, front faces counter-clockwise, blend function and
+///   equation unspecified; pixel storage as in a fresh context;
+/// - the viewport that was drawn to; bound as draw and read framebuffer after vtRenderer_Draw
+///   frame->framebuffer, after all other calls unspecified, after reading back 0.
+/// All else is as it was. An error that the host left unasked is dropped (not in browsers, where asking
+/// waits).
 
-/// Uploads a scene or an environment in place of the one before; on failure the one before stays. The scene
-/// may go afterwards.
-vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError* error);
+/// In the current context. Fails with vt_errorContext and the reason.
+VT_API vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** renderer, vtError* error);
+/// Frees all GL objects; the same context must be current. Safe on NULL.
+VT_API void vtDestroyRenderer(vtRenderer* renderer);
+
+/// Uploads a scene or an environment in place of what there is; on failure that stays. The scene may go
+/// afterwards. Handles of geometry and instances that were there before are gone.
+VT_API vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError* error);
 /// A scene of one object of glass of index 1.5.
-vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error);
-/// Draws a mesh of the scene, which is the one that was set, as vtMesh_Update has changed it. Only what
-/// changed is uploaded, unless its hierarchy was built anew and is larger, or was not there when the scene
-/// was set: then the whole scene is.
-vtResult vtRenderer_UpdateMesh(vtRenderer* renderer, const vtScene* scene, uint32_t mesh, vtError* error);
-vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment, vtError* error);
+VT_API vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtError* error);
+VT_API vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment,
+                                          vtError* error);
+
+/// Geometry on the GPU, and an instance of it: in its place, of its material. Zero is none. A handle is good
+/// until what it stands for is removed or a scene is set; then calls that take it fail with vt_errorArgument.
+typedef struct vtGeometryId {
+    uint32_t index1, generation;
+} vtGeometryId;
+typedef struct vtInstanceId {
+    uint32_t index1, generation;
+} vtInstanceId;
+
+/// Those of the scene that was set last, by the number of its mesh or object, as long as none has been
+/// removed; zero where there is none, or memory is out.
+VT_API vtGeometryId vtRenderer_SceneGeometry(vtRenderer* renderer, uint32_t mesh);
+VT_API vtInstanceId vtRenderer_SceneInstance(vtRenderer* renderer, uint32_t object);
+
+/// Adds a mesh to draw instances of, with its hierarchy, which is built where the mesh has none; it may go
+/// afterwards. On failure *id is zero. Of several reliefs the first that was added can be drawn by its
+/// heights.
+VT_API vtResult vtRenderer_AddGeometry(vtRenderer* renderer, const vtMesh* mesh, vtGeometryId* id,
+                                       vtError* error);
+/// Draws the mesh as vtMesh_Update has changed it. Where its hierarchy is as large as before, which it is
+/// unless it was built anew, only what changed is uploaded. On failure the geometry stays as it was.
+VT_API vtResult vtRenderer_UpdateGeometry(vtRenderer* renderer, vtGeometryId id, const vtMesh* mesh,
+                                          vtError* error);
+/// Removes a geometry and all its instances.
+VT_API vtResult vtRenderer_RemoveGeometry(vtRenderer* renderer, vtGeometryId id, vtError* error);
+
+/// One object to draw.
+typedef struct vtInstanceDef {
+    vtGeometryId geometry;
+    vtMaterial material; ///< images: those of the scene, or of vtRenderer_SetImages
+    vtTransform toWorld; ///< invertible
+    int priority;        ///< as vtObject's
+    char name[64];       ///< for sentences
+} vtInstanceDef;
+/// Glass of index 1.5 at the origin; the geometry is for the caller to set.
+VT_API vtInstanceDef vtDefaultInstance(void);
+
+/// Adding, moving, changing and removing instances costs no upload but that of the table of objects, with the
+/// next frame. What can only be seen with all of them, as glass without a volume inside other glass, the next
+/// vtRenderer_Draw says. VT_MAX_OBJECTS at most.
+VT_API vtResult vtRenderer_AddInstance(vtRenderer* renderer, const vtInstanceDef* def, vtInstanceId* id,
+                                       vtError* error);
+VT_API vtResult vtRenderer_SetInstance(vtRenderer* renderer, vtInstanceId id, const vtInstanceDef* def,
+                                       vtError* error);
+VT_API vtResult vtRenderer_GetInstance(vtRenderer* renderer, vtInstanceId id, vtInstanceDef* def,
+                                       vtError* error);
+VT_API vtResult vtRenderer_RemoveInstance(vtRenderer* renderer, vtInstanceId id, vtError* error);
+
+/// The images that the materials of instances name, in place of those there are.
+VT_API vtResult vtRenderer_SetImages(vtRenderer* renderer, const vtImage* images, uint32_t count,
+                                     vtError* error);
 
 /// Starts what a frame is drawn with, shaders above all, without waiting for it. *ready: nothing is left to
 /// wait for, as far as the driver tells. A page asks again each frame and draws when it is; without this call
 /// vtRenderer_Draw waits. Fails as vtRenderer_Draw does for a frame that cannot be drawn.
-vtResult vtRenderer_Prepare(vtRenderer* renderer, const vtFrame* frame, bool* ready, vtError* error);
+VT_API vtResult vtRenderer_Prepare(vtRenderer* renderer, const vtFrame* frame, bool* ready, vtError* error);
 
-/// Draws one frame into frame->framebuffer, whose lower left width x height pixels are overwritten.
-/// Leaves that framebuffer bound, depth test, blending and face culling off.
+/// Draws one frame into frame->framebuffer, whose width x height pixels from frame->x, y on are overwritten,
+/// or drawn over (frame->overlay). Leaves that framebuffer bound.
 ///
 /// With firstSample above 0 it goes on from the frame before: samples firstSample to firstSample + samples -
 /// 1 are added to those that are there (the ones that are there already are not drawn again), and the mean of
 /// all is shown. So a page can draw one sample a frame while its picture stands still. Where anything else in
-/// *frame but `framebuffer` has changed since, or the mesh or environment, it starts anew with firstSample.
-vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error);
+/// *frame but `framebuffer` has changed since, or what there is to draw, it starts anew with firstSample.
+/// What the host draws into hostColor and hostDepth is not noticed: begin with firstSample 0 where it
+/// changes.
+VT_API vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error);
 
 /// Draws one frame off screen and reads it back: 4 * width * height bytes, sRGB with straight alpha (255
 /// unless the background is transparent), top row first. frame->framebuffer is ignored; framebuffer 0 is
 /// bound afterwards. With rgba NULL nothing is read: it returns once the GPU has finished, for timing.
-vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error);
+VT_API vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba,
+                                     vtError* error);
 
 /// Exit directions of the last frame's last sample: 3 * width * height floats, top row first. Unit world
 /// directions; (0,0,0) where the eye ray misses the glass, (2,2,2) where the path was lost.
-vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error);
+VT_API vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error);
 
 /// What became of the paths of the last frame's last sample: width * height words, top row first. The lowest
 /// byte is VT_PATH_BACKGROUND, VT_PATH_EXITED or VT_PATH_LOST, the second the number of events; VT_PATH_TIR
 /// is set where total internal reflection took part; with countReads the word above VT_PATH_READS_SHIFT is
 /// the number of texture reads, the first surface's included (0 for the kay techniques).
-vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error);
+VT_API vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error);
 
-vtRendererInfo vtRenderer_Info(const vtRenderer* renderer);
+VT_API vtRendererInfo vtRenderer_Info(const vtRenderer* renderer);
 
 #ifdef __cplusplus
 }

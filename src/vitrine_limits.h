@@ -1,4 +1,6 @@
-// Limits and codes of the public interface, which the shaders read too: only lines that mean the same in C and GLSL.
+// SPDX-License-Identifier: MIT
+// Limits and codes of the public interface, which the shaders read too: only lines that mean the same in C
+// and GLSL.
 #define VT_MAX_LAYERS 16
 #define VT_MAX_STEPS 1000
 #define VT_MAX_REFINE 32

@@ -10,6 +10,7 @@ import { fileURLToPath } from 'node:url';
 import { deflateSync } from 'node:zlib';
 import * as shapes from '../scripts/glb.mjs';
 import { glb, gltf } from '../scripts/glb.mjs';
+import { drawPlot } from '../scripts/plot.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
@@ -71,6 +72,46 @@ describe('words', () => {
       'fov', 'resolution', 'directions', 'layer-sheet', 'analysis', 'rendering-backend', 'verbose', 'output']) {
       assert.ok(help.text.includes(`--${option}`), option);
     }
+  });
+
+  /** The names of a struct's fields in the public header. */
+  function fieldsOf(struct) {
+    const header = readFileSync(join(here, '../src/vitrine.h'), 'utf8');
+    const body = header.match(new RegExp(`typedef struct ${struct} \\{([^}]*)\\} ${struct};`))[1].replace(/\/\/.*/g, '');
+    return body.split(';').flatMap((line) => line.split(',').map((part) => part.match(/(\w+)\s*$/)?.[1]).filter(Boolean));
+  }
+
+  test('the table of settings has a row for every field of vtFrame', () => {
+    const rows = JSON.parse(vitrine(['list', '--settings']).text);
+    // Where a picture goes, and a host's view and picture: only for embedding.
+    const others = ['framebuffer', 'x', 'y', 'linear', 'viewMatrix', 'projectionMatrix', 'overlay', 'hostColor', 'hostDepth', 'hostLinear',
+      'stageDone', 'stageData'];
+    const wanted = fieldsOf('vtFrame').filter((field) => !others.includes(field)).flatMap((field) => (field === 'view' ? fieldsOf('vtView').map((part) => `view.${part}`) : [field]));
+    assert.deepEqual(rows.map(({ field }) => field), wanted);
+    for (const { name, help } of rows) assert.ok(help.length > 0, name);
+    assert.match(vitrine(['list', '--all']).error, /'--all'/);
+  });
+
+  test('the element takes settings as the table has them', async () => {
+    const rows = JSON.parse(vitrine(['list', '--settings']).text);
+    // As a data URL it is a module for Node 18 too.
+    const source = readFileSync(join(here, '../web/element/attributes.js')).toString('base64');
+    const { attributes } = await import(`data:text/javascript;base64,${source}`);
+    const shared = attributes.filter(({ attribute }) => rows.some(({ name }) => name === attribute));
+    assert.deepEqual(shared.map(({ attribute }) => attribute),
+      ['exposure', 'ior', 'fresnel', 'technique', 'preset', 'layers', 'steps', 'max-events', 'output', 'layer', 'samples']);
+    for (const row of shared) {
+      const { attribute, type, min, max, integer = false, values } = row;
+      if (attribute === 'exposure' || attribute === 'technique') continue; // a factor; an id
+      const setting = rows.find(({ name }) => name === attribute);
+      if (type === 'enum') assert.deepEqual(values, setting.words, attribute);
+      else assert.deepEqual([min, max, integer], [setting.least, setting.most, setting.kind === 'integer'], attribute);
+      const value = type === 'enum' ? values.indexOf(row.default) : row.default ?? 0;
+      if (attribute !== 'samples') assert.equal(value, setting.default, attribute); // the element adds 64, one by one
+    }
+    const ids = vitrine(['list']).text.split('shapes:')[0].match(/^  [a-z-]+/gm).map((line) => line.trim());
+    const { values } = attributes.find(({ attribute }) => attribute === 'technique');
+    assert.deepEqual([...values].sort(), ids.filter((id) => id !== 'reference').sort());
   });
 
   test('a missing or unknown command', () => {
@@ -668,25 +709,25 @@ describe('measuring', () => {
 
   test('bench: sweeps and their plots', { skip: slow && 'a million triangles take minutes under sanitizers' }, () => {
     const result = vitrine(['bench', 'torus', '-t', 'single,exact', '--rounds', '1', '--resolution', '32,32', '--json',
-      '--sweep', 'triangles', '--plot', 'plot.svg', '--threads', '1']);
+      '--sweep', 'triangles', '--threads', '1']);
     assert.equal(result.code, 0, result.error);
-    const { cases, threads } = JSON.parse(result.text);
+    const report = JSON.parse(result.text), { cases, threads } = report;
     assert.equal(threads, 1);
     assert.equal(cases.length, 6);
     cases.forEach(({ triangles }, i) => {
       const wanted = [1e3, 4e3, 16e3, 64e3, 250e3, 1e6][i];
       assert.ok(Math.abs(triangles / wanted - 1) < 0.05, `${triangles} triangles`);
     });
-    const svg = readFileSync(join(folder, 'plot.svg'), 'utf8');
+    const svg = drawPlot(report);
     assert.equal(svg.match(/<polyline/g).length, 5, 'two techniques, a default picture, Embree twice');
-    assert.ok(!/nan|inf/.test(svg), 'every point has a place');
+    assert.ok(!/NaN|Infinity|undefined/.test(svg), 'every point has a place');
   });
 
   test('bench: up to 1,000 objects that share a mesh', () => {
     const result = vitrine(['bench', 'torus', '--triangles', '1000', '-t', 'single', '--rounds', '1',
-      '--resolution', '48,64', '--json', '--sweep', 'objects', '--table', 'objects.md', '--plot', 'objects.svg']);
+      '--resolution', '48,64', '--json', '--sweep', 'objects', '--table', 'objects.md']);
     assert.equal(result.code, 0, result.error);
-    const { cases } = JSON.parse(result.text);
+    const report = JSON.parse(result.text), { cases } = report;
     assert.deepEqual(cases.map(({ objects }) => objects), [1, 4, 16, 64, 250, 1000]);
     const { meshBytes } = cases[0];
     for (const measured of cases) {
@@ -696,7 +737,7 @@ describe('measuring', () => {
     }
     const table = readFileSync(join(folder, 'objects.md'), 'utf8');
     assert.equal(new Set(table.split('\n\n')[1].trim().split('\n').map((line) => line.split('|').length)).size, 1);
-    assert.equal(readFileSync(join(folder, 'objects.svg'), 'utf8').match(/<polyline/g).length, 3);
+    assert.equal(drawPlot(report).match(/<polyline/g).length, 3);
 
     const few = vitrine(['bench', '--object', 'cube:scale=0.1', '--object', 'cube:scale=0.1,at=1,0,0', '-t', 'single',
       '--rounds', '1', '--resolution', '24,24', '--json', '--sweep', 'objects']);
@@ -713,9 +754,9 @@ describe('measuring', () => {
 
   test('bench: a relief by its heights and as triangles', () => {
     const args = ['bench', 'ripples', '--rounds', '1', '--resolution', '48,48', '--relief-size', '64'];
-    const result = vitrine([...args, '--sweep', 'relief', '--json', '--table', 'relief.md', '--plot', 'relief.svg']);
+    const result = vitrine([...args, '--sweep', 'relief', '--json', '--table', 'relief.md']);
     assert.equal(result.code, 0, result.error);
-    const { cases } = JSON.parse(result.text);
+    const report = JSON.parse(result.text), { cases } = report;
     assert.deepEqual(cases.map(({ samples }) => samples), [4, 8, 16, 32, 64]);
     for (const { techniques: [heights, exact], flip, triangles, samples } of cases) {
       assert.deepEqual([heights.id, exact.id, heights.absent], ['heightfield', 'exact', '']);
@@ -728,9 +769,10 @@ describe('measuring', () => {
     assert.match(rows, /\n\| 64 x 64 \| heightfield \|/);
     assert.equal(new Set(rows.split('\n').map((line) => line.split('|').length)).size, 1);
     assert.match(agreement, /\n\| 64 x 64 \| \d+ \|/);
-    assert.equal(readFileSync(join(folder, 'relief.svg'), 'utf8').match(/<polyline/g).length, 6);
+    assert.equal(drawPlot(report).match(/<polyline/g).length, 6);
 
     const first = vitrine([...args, '--json']);
+    assert.throws(() => drawPlot(JSON.parse(first.text)), /add --sweep/);
     assert.deepEqual(JSON.parse(first.text).cases[0].techniques.map(({ id }) => id),
       ['heightfield', 'exact', 'layered', 'single']);
   });
@@ -759,7 +801,6 @@ describe('measuring', () => {
     fails(['ripples', '--sweep', 'relief', '-t', 'layered'], ['heightfield and exact', 'leave --technique out']);
     fails(['ripples', '--sweep', 'relief', '--relief-size', '16'], ['--relief-size is 16', 'at least 32']);
     fails(['goblet', '--triangles', '5000'], ["'goblet'", 'the knot and the torus can']);
-    fails(['knot', '--plot', 'x.svg'], ['add --sweep']);
     fails(['knot', '--rounds', '0'], ['--rounds is 0', 'from 1 to 99']);
   });
 
@@ -778,9 +819,10 @@ describe('measuring', () => {
     assert.match(vitrine(['rays', 'knot']).error, /^vitrine: rays: 'knot' is no relief;[^\n]+\n$/);
   });
 
-  test('the thesis needs a folder and no model', () => {
-    assert.match(vitrine(['thesis']).error, /add -o FOLDER/);
-    assert.match(vitrine(['thesis', 'knot', '-o', 'x']).error, /'knot' is one too many/);
+  test('the thesis needs a folder', () => {
+    const thesis = spawnSync(process.execPath, [join(here, '../scripts/thesis.mjs')]);
+    assert.equal(thesis.status, 1);
+    assert.match(thesis.stderr.toString(), /^thesis: [^\n]*add -o FOLDER\n$/);
   });
 });
 

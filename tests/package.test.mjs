@@ -86,15 +86,18 @@ describe('the package', { skip: missing }, () => {
     assert.ok((await colours(join(site, 'dist'))) > 300);
   });
 
-  test('holds types, manifest and a description', () => {
+  test('holds types, manifest, a description and the licences', () => {
     const site = join(folder, 'look');
     mkdirSync(site);
     execFileSync('tar', ['-xzf', tarball, '-C', site]);
     const about = JSON.parse(readFileSync(join(site, 'package/package.json'), 'utf8'));
     assert.equal(Object.keys(about.exports['.'])[0], 'types');
-    for (const file of [about.types, about.main, about.customElements, 'vitrine-core.wasm', 'README.md']) {
+    for (const file of [about.types, about.main, about.customElements, 'vitrine-core.wasm', 'README.md', 'LICENSE']) {
       assert.ok(existsSync(join(site, 'package', file)), file);
     }
+    assert.equal(about.license, 'MIT');
+    const notices = readFileSync(join(site, 'package/NOTICES.txt'), 'utf8');
+    for (const name of ['Syoyo Fujita', 'The Emscripten Authors']) assert.ok(notices.includes(name), name);
     const manifest = JSON.parse(readFileSync(join(site, 'package/custom-elements.json'), 'utf8'));
     assert.equal(manifest.modules[0].declarations[0].tagName, 'vitrine-viewer');
     assert.match(readFileSync(join(site, 'package/index.d.ts'), 'utf8'), /cameraOrbit: string;/);

@@ -14,9 +14,6 @@ vtResult vtRunLadder(const vtOptions* options, vtError* error);
 /// `vitrine bench`: time, memory and accuracy of techniques beside the reference, interleaved.
 vtResult vtRunBench(const vtOptions* options, vtError* error);
 
-/// `vitrine thesis`: the comparisons of Wang & Chi 2014, chapters 3 and 4, as a page.
-vtResult vtRunThesis(const vtOptions* options, vtError* error);
-
 /// `vitrine rays`: a relief traced by its heights, beside triangles made of them.
 vtResult vtRunRays(const vtOptions* options, vtError* error);
 

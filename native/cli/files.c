@@ -8,20 +8,21 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 static vtResult readStream(FILE* stream, const char* path, uint8_t** bytes, size_t* size, vtError* error)
 {
     size_t capacity = 1 << 16, used = 0;
-    uint8_t* data = malloc(capacity);
+    uint8_t* data = vtAllocate(capacity, 1);
     while (data != NULL) {
         used += fread(data + used, 1, capacity - used, stream);
         if (used < capacity) {
             break;
         }
         capacity *= 2;
-        uint8_t* larger = realloc(data, capacity);
+        uint8_t* larger = vtReallocate(data, capacity, 1);
         if (larger == NULL) {
-            free(data);
+            vtFree(data);
         }
         data = larger;
     }
@@ -30,7 +31,7 @@ static vtResult readStream(FILE* stream, const char* path, uint8_t** bytes, size
     }
     if (ferror(stream)) {
         int reason = errno;
-        free(data);
+        vtFree(data);
         return vtFail(error, vt_errorFile, "file '%s' cannot be read: %s", path, strerror(reason));
     }
     *bytes = data;

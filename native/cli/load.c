@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "cli/files.h"
-#include "cli/objects.h"
+#include "cli/object_help.h"
 #include "cli/relief_input.h"
 #include "cli/trace.h"
 #include "image/image.h"
@@ -36,7 +36,7 @@ static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vt
     vtResult result = vtReadFile(name, &bytes, &size, error);
     if (result == vt_ok) {
         result = vtLoadEnvironment(bytes, size, name, environment, error);
-        free(bytes);
+        vtFree(bytes);
     }
     return result;
 }
@@ -85,7 +85,7 @@ static vtResult loadFile(const Named* named, vtScene* scene, vtError* error)
     } else if (result == vt_ok) {
         result = loadModel(named->name, bytes, size, scene, error);
     }
-    free(bytes);
+    vtFree(bytes);
     return result;
 }
 
@@ -271,16 +271,18 @@ static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError*
     if (vtIsReference(options) && !options->innerDistances && !options->triangulates) {
         return vtSucceed(error); // it takes reliefs by their heights
     }
-    const vtTechnique technique = options->innerDistances ? vt_techniqueWyman
-                                  : options->triangulates
-                                      ? vt_techniqueExact
-                                      : vtFindTechnique(vtChooseTechnique(options, scene));
+    vtTechnique technique = options->innerDistances ? vt_techniqueWyman
+                            : options->triangulates ? vt_techniqueExact
+                                                    : vtFindTechnique(vtChooseTechnique(options, scene));
+    if (technique == vt_techniqueCount) {
+        technique = vt_techniqueExact; // several are named, or what the command refuses later
+    }
     return vtPrepareScene(scene, technique, NULL, error);
 }
 
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
 {
-    *input = (vtInput){.ior = options->ior};
+    *input = (vtInput){.ior = options->frame.ior};
     vtResult result = loadObjects(options, &input->scene, error);
     if (result == vt_ok) {
         result = vtValidateScene(&input->scene, error);

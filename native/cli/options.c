@@ -1,16 +1,16 @@
 #include "cli/options.h"
 
 #include <getopt.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "cli/objects.h"
-#include "lab/bench/timing.h"
+#include "cli/object_help.h"
+#include "cli/setting_options.h"
+#include "lab/metrics/timing.h"
 
-typedef enum Kind { kindFlag, kindText, kindList, kindInteger, kindNumber, kindVector, kindSize } Kind;
+typedef enum Kind { kindFlag, kindText, kindList, kindInteger, kindNumber, kindSize, kindSetting } Kind;
 
 typedef struct Option {
     const char* name;
@@ -26,11 +26,15 @@ typedef struct Option {
 #define RENDER (1u << vt_commandRender)
 #define VIEW (1u << vt_commandView)
 #define LADDER (1u << vt_commandLadder)
-#define THESIS (1u << vt_commandThesis)
 #define BENCH (1u << vt_commandBench)
 #define RAYS (1u << vt_commandRays)
 #define SCENE (RENDER | VIEW | LADDER | BENCH)
 #define AT(field) offsetof(vtOptions, field)
+// Everything else of it stands in the table of settings.
+#define SETTING(title, where)                                                                                \
+    {                                                                                                        \
+        .name = title, .kind = kindSetting, .commands = where                                                \
+    }
 
 static const Option table[] = {
     {"object", 0, kindList, AT(objects), 0, 0, "NAME[:KEYS]", "one more object, see below; up to 64 times",
@@ -42,18 +46,13 @@ static const Option table[] = {
      "see 'vitrine list' (" VT_BENCH_TECHNIQUES ", of a relief " VT_RELIEF_TECHNIQUE
      " before them; sweeps over objects: exact)",
      BENCH},
-    {"preset", 0, kindText, AT(preset), 0, 0, "low|medium|high", "settings that are not given (medium)",
-     SCENE},
-    {"layers", 0, kindInteger, AT(layers), 1, VT_MAX_LAYERS, "N", "depth layers peeled (2, 4, 8)", SCENE},
-    {"steps", 0, kindInteger, AT(steps), 1, VT_MAX_STEPS, "N", "linear search steps a segment (25, 50, 100)",
-     SCENE},
-    {"refine", 0, kindInteger, AT(refine), 0, VT_MAX_REFINE, "N", "binary search steps after them (8)",
-     SCENE},
-    {"max-events", 0, kindInteger, AT(maxEvents), 1, VT_MAX_EVENTS, "N",
-     "refractions and internal reflections of a path (4, 8, 8)", SCENE},
-    {"layer-size", 0, kindInteger, AT(layerSize), 16, 8192, "N",
-     "longer side of the layer textures (that of the picture)", SCENE},
-    {"ior", 0, kindNumber, AT(ior), 1, 4, "N", "index of refraction of all glass (each object's own)", SCENE},
+    SETTING("preset", SCENE),
+    SETTING("layers", SCENE),
+    SETTING("steps", SCENE),
+    SETTING("refine", SCENE),
+    SETTING("max-events", SCENE),
+    SETTING("layer-size", SCENE),
+    SETTING("ior", SCENE),
     {"relief", 0, kindNumber, AT(relief), 0, 10, "DEPTH",
      "MODEL is a relief: its depth from black to white (0.1; a built-in one's own)", SCENE | RAYS},
     {"slab", 0, kindNumber, AT(slab), 0.001, 10, "THICKNESS", "a relief's glass behind black (0.1)",
@@ -62,44 +61,35 @@ static const Option table[] = {
      "a relief's heights are smoothed over so many (0; pictures of 8 bits 2)", SCENE | RAYS},
     {"relief-size", 0, kindInteger, AT(reliefSize), 2, VT_MAX_RELIEF_SIDE, "N",
      "samples along a side of a built-in relief (512)", SCENE | RAYS},
-    {"transmittance", 0, kindNumber, AT(transmittance), 0, 1, "T",
-     "of a surface (kay-linear), of a unit of length (kay-thickness) (0.8)", SCENE},
-    {"max-transmittance", 0, kindNumber, AT(maxTransmittance), 0, 1, "T", "kay-nonlinear (0.95)", SCENE},
-    {"min-transmittance", 0, kindNumber, AT(minTransmittance), 0, 1, "T", "kay-nonlinear (0.2)", SCENE},
-    {"power", 0, kindNumber, AT(power), 0, 100, "P", "kay-nonlinear (3)", SCENE},
-    {"wall-thickness", 0, kindNumber, AT(wallThickness), 0, 1e6, "D",
-     "kay-thickness, the model's unit (6 % of its largest extent)", SCENE},
-    {"back-surface", 0, kindText, AT(backSurface), 0, 0, "second|farthest", "wyman's back side (second)",
-     SCENE},
+    SETTING("transmittance", SCENE),
+    SETTING("max-transmittance", SCENE),
+    SETTING("min-transmittance", SCENE),
+    SETTING("power", SCENE),
+    SETTING("wall-thickness", SCENE),
+    SETTING("back-surface", SCENE),
     {"environment", 'e', kindText, AT(environment), 0, 0, "NAME|FILE",
      "see 'vitrine list', or a .hdr, .png or .jpg, equirectangular (studio)", SCENE},
-    {"exposure", 0, kindNumber, AT(exposure), -20, 20, "EV", "brightens by a factor of 2 each (0)", SCENE},
-    {"camera", 0, kindVector, AT(camera), 0, 0, "X,Y,Z", "position of the eye (the object framed)",
-     SCENE | RAYS},
-    {"target", 0, kindVector, AT(target), 0, 0, "X,Y,Z", "what it looks at (the object's centre)",
-     SCENE | RAYS},
-    {"fov", 0, kindNumber, AT(fov), 1, 170, "DEGREES", "vertical field of view (45)", SCENE | RAYS},
+    SETTING("exposure", SCENE),
+    SETTING("camera", SCENE | RAYS),
+    SETTING("target", SCENE | RAYS),
+    SETTING("fov", SCENE | RAYS),
     {"camera-index", 0, kindInteger, AT(cameraIndex), 0, 65535, "N",
      "the files' camera of this number; --camera, --target and --fov go before it (none)", RENDER | VIEW},
-    {"resolution", 'r', kindSize, AT(size), 1, 16384, "W,H", "pixels (512,512)", SCENE},
+    {"resolution", 'r', kindSize, AT(frame.width), 0, 0, "W,H", "pixels (512,512)", SCENE},
     {"directions", 0, kindText, AT(directions), 0, 0, "FILE",
      "exit directions as PFM; 0,0,0 background, 2,2,2 lost", RENDER},
     {"layer-sheet", 0, kindText, AT(layerSheet), 0, 0, "FILE", "depth and normal of each layer, PNG", RENDER},
     {"analysis", 0, kindFlag, AT(analysis), 0, 0, NULL,
      "path colours: red 2 refractions, blue more, green total reflection, grey lost", RENDER | VIEW},
     {"rendering-backend", 0, kindText, AT(backend), 0, 0, "auto|osmesa|egl", "headless GL (auto)",
-     RENDER | LADDER | THESIS | BENCH},
+     RENDER | LADDER | BENCH},
     {"fresnel", 0, kindFlag, AT(fresnelGiven), 0, 0, NULL,
      "with Fresnel reflection, the default; given, it holds for --directions too", RENDER | VIEW},
     {"no-fresnel", 0, kindFlag, AT(noFresnel), 0, 0, NULL, "paths only refract, or reflect where they must",
      RENDER | VIEW},
-    {"branches", 0, kindInteger, AT(branches), -1, VT_MAX_BRANCHES, "N",
-     "exact: how often light that left a path is followed, -1 never (preset: 0, 1, 2)",
-     RENDER | VIEW | BENCH},
-    {"multi", 0, kindText, AT(multi), 0, 0, "any|ordered",
-     "layered, several objects: as paths meet them, or one after the other (any)", RENDER | VIEW | BENCH},
-    {"search", 0, kindText, AT(search), 0, 0, "steps|cells",
-     "layered: by linear and binary steps, or from cell to cell (steps)", RENDER | VIEW | BENCH},
+    SETTING("branches", RENDER | VIEW | BENCH),
+    SETTING("multi", RENDER | VIEW | BENCH),
+    SETTING("search", RENDER | VIEW | BENCH),
     {"events", 0, kindText, AT(events), 0, 0, "FILE",
      "reference: number of events of each pixel's path, grey PNG, for 'compare --events'", RENDER},
     {"samples", 0, kindInteger, AT(samples), 1, 65536, "N",
@@ -119,7 +109,6 @@ static const Option table[] = {
      "built-in relief of five sizes up to --relief-size (4096), or 1 to 16 copies side by side or one behind "
      "the other",
      BENCH},
-    {"plot", 0, kindText, AT(plot), 0, 0, "FILE", "the sweep's times as a picture, SVG", BENCH},
     {"triangles", 0, kindInteger, AT(triangles), 200, 4e6, "N",
      "about so many, of the knot or the torus (theirs)", BENCH},
     {"rounds", 0, kindInteger, AT(rounds), 1, vt_maxTimingRounds, "N",
@@ -127,80 +116,60 @@ static const Option table[] = {
     {"rounds", 0, kindInteger, AT(rounds), 1, vt_maxTimingRounds, "N", "whose median is taken (5)", RAYS},
     {"threads", 0, kindInteger, AT(threads), 1, 32, "N", "of llvmpipe and of the reference (all processors)",
      BENCH},
-    {"output", 'o', kindText, AT(output), 0, 0, "FOLDER", "where the page and its pictures go", THESIS},
-    {"models", 0, kindText, AT(models), 0, 0, "FOLDER",
-     "holds the thesis's models as .glb; absent ones are left out", THESIS},
     {"frames", 0, kindInteger, AT(frames), 1, 1000000, "N", "close the window after so many frames", VIEW},
     {"verbose", 'v', kindFlag, AT(verbose), 0, 0, NULL, "say what is done, on what, with how much memory",
-     SCENE | THESIS | RAYS},
-    {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", SCENE | THESIS | RAYS},
+     SCENE | RAYS},
+    {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", SCENE | RAYS},
 };
 #define OPTION_COUNT ((int)(sizeof table / sizeof table[0]))
 
-/// Reads `count` numbers separated by commas (or an x between two) and nothing else.
-static bool readNumbers(const char* text, double* numbers, int count)
+static vtResult storeNumber(const Option* option, const char* text, void* field, vtError* error)
 {
-    for (int i = 0; i < count; ++i) {
-        char* end;
-        numbers[i] = strtod(text, &end);
-        bool last = i == count - 1;
-        if (end == text || !isfinite(numbers[i]) || (last ? *end != '\0' : *end != ',' && *end != 'x')) {
-            return false;
-        }
-        text = end + 1;
+    const vtRange range = {option->low, option->high, option->kind == kindInteger};
+    double number;
+    vtResult result = vtReadOption(option->name, text, &range, 1, &number, error);
+    if (result == vt_ok && range.isWhole) {
+        *(int*)field = (int)number;
+    } else if (result == vt_ok) {
+        *(float*)field = (float)number;
     }
-    return true;
+    return result;
 }
 
-static vtResult storeNumbers(const Option* option, const char* text, void* field, vtError* error)
+static vtResult storeSize(const Option* option, const char* text, vtFrame* frame, vtError* error)
 {
-    double numbers[3] = {0};
-    int count = option->kind == kindVector ? 3 : option->kind == kindSize ? 2 : 1;
-    if (!readNumbers(text, numbers, count)) {
-        return vtFail(error, vt_errorArgument, "--%s is '%s'; it must be %s", option->name, text,
-                      count == 3   ? "three numbers X,Y,Z"
-                      : count == 2 ? "two whole numbers W,H"
-                                   : "a number");
+    const vtSetting *width = vtFindSetting("width"), *height = vtFindSetting("height");
+    const vtRange range = vtRangeOfSetting(width);
+    double numbers[2];
+    vtResult result = vtReadOption(option->name, text, &range, 2, numbers, error);
+    if (result == vt_ok) {
+        vtSetting_Set(width, frame, numbers[0]);
+        vtSetting_Set(height, frame, numbers[1]);
     }
-    for (int i = 0; i < count && option->kind != kindVector; ++i) {
-        bool whole = option->kind == kindNumber || numbers[i] == floor(numbers[i]);
-        if (!whole || numbers[i] < option->low || numbers[i] > option->high) {
-            return vtFail(error, vt_errorArgument, "--%s is %s; it must be %s from %g to %g", option->name,
-                          text, option->kind == kindNumber ? "a number" : "a whole number", option->low,
-                          option->high);
-        }
-    }
-    switch (option->kind) {
-    case kindInteger:
-        *(int*)field = (int)numbers[0];
-        break;
-    case kindNumber:
-        *(float*)field = (float)numbers[0];
-        break;
-    case kindSize:
-        ((int*)field)[0] = (int)numbers[0];
-        ((int*)field)[1] = (int)numbers[1];
-        break;
-    default:
-        *(vtVec3*)field = (vtVec3){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
-        break;
-    }
-    return vt_ok;
+    return result;
+}
+
+static vtResult storeSetting(const Option* option, const char* text, vtOptions* options, vtError* error)
+{
+    const vtSetting* setting = vtFindSetting(option->name);
+    options->hasCamera |= setting->offset == offsetof(vtFrame, view.eye);
+    options->hasTarget |= setting->offset == offsetof(vtFrame, view.target);
+    options->hasFov |= setting->offset == offsetof(vtFrame, view.fovY);
+    return vtReadSetting(setting, text, &options->frame, error);
 }
 
 static vtResult store(const Option* option, char* value, vtOptions* options, vtError* error)
 {
     void* field = (char*)options + option->offset;
-    if (option->kind == kindFlag) {
+    switch (option->kind) {
+    case kindFlag:
         *(bool*)field = true;
         return vt_ok;
-    }
-    if (option->kind == kindText) {
+    case kindText:
         options->hasTechnique |= option->offset == AT(technique);
         *(const char**)field = value;
         return vt_ok;
-    }
-    if (option->kind == kindList) {
+    case kindList:
         if (options->objectCount == VT_MAX_OBJECT_OPTIONS) {
             return vtFail(error, vt_errorArgument,
                           "--object '%.200s' is one too many; at most %d can be given", value,
@@ -208,33 +177,24 @@ static vtResult store(const Option* option, char* value, vtOptions* options, vtE
         }
         ((const char**)field)[options->objectCount++] = value;
         return vt_ok;
+    case kindSize:
+        return storeSize(option, value, &options->frame, error);
+    case kindSetting:
+        return storeSetting(option, value, options, error);
+    default:
+        return storeNumber(option, value, field, error);
     }
-    options->hasCamera |= option->offset == AT(camera);
-    options->hasTarget |= option->offset == AT(target);
-    options->hasFov |= option->offset == AT(fov);
-    return storeNumbers(option, value, field, error);
 }
 
 vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* options, vtError* error)
 {
-    vtFrame frame = vtDefaultFrame();
+    const vtFrame frame = vtDefaultFrame();
     *options = (vtOptions){
+        .frame = frame,
         .environment = "studio",
         .technique = command == vt_commandBench ? VT_BENCH_TECHNIQUES : vtTechnique_Info(frame.technique)->id,
         .backend = "auto",
-        .size = {frame.width, frame.height},
-        .preset = "medium",
-        .refine = frame.refine,
-        .maxEvents = frame.maxEvents,
-        .fov = frame.view.fovY,
-        .backSurface = "second",
-        .multi = "any",
-        .search = "steps",
         .cameraIndex = -1,
-        .transmittance = frame.transmittance,
-        .maxTransmittance = frame.maxTransmittance,
-        .minTransmittance = frame.minTransmittance,
-        .power = frame.power,
         .samples = command == vt_commandView ? 64 : 1,
         .referenceThreshold = 0.05f,
         .relief = -1.0f,
@@ -317,17 +277,20 @@ void vtPrintOptions(vtCommand command)
             continue;
         }
         objects = objects || option->kind == kindList;
-        char left[64], range[48] = "";
-        char letter[5] = "    ";
+        char left[64], range[48] = "", letter[5] = "    ";
         if (option->letter != 0) {
             snprintf(letter, sizeof letter, "-%c, ", option->letter);
+        }
+        if (option->kind == kindSetting) {
+            vtPrintSetting(vtFindSetting(option->name));
+            continue;
         }
         snprintf(left, sizeof left, "%s--%s %s", letter, option->name,
                  option->argument ? option->argument : "");
         if (option->high > option->low) {
             snprintf(range, sizeof range, ", %g to %g", option->low, option->high);
         }
-        printf("  %-36s %s%s\n", left, option->help, range);
+        printf(VT_OPTION_LINE, left, option->help, range);
     }
     if (objects) {
         vtPrintObjectHelp();

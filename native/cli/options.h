@@ -15,6 +15,7 @@
 /// All that `render` and `view` can be told. Zero or NULL means "not given" where a default depends on the
 /// model.
 typedef struct vtOptions {
+    vtFrame frame; ///< the settings, as given; vtMakeFrame adds what is told otherwise
     const char* model;
     const char* output;
     const char* environment;
@@ -25,24 +26,12 @@ typedef struct vtOptions {
     const char* events;
     const char* reference;
     const char* table;
-    const char* models;
-    const char* backSurface;
-    const char* preset;
     const char* sweep;
-    const char* plot;
-    const char* multi;
-    const char* search;
     const char* objects[VT_MAX_OBJECT_OPTIONS]; ///< of --object, as given
     int objectCount;
-    float ior, fov, exposure;
-    float transmittance, maxTransmittance, minTransmittance, power, wallThickness;
-    vtVec3 camera, target;
-    bool hasCamera, hasTarget, hasFov;
-    int cameraIndex; ///< of the file's cameras; -1: none of them
-    int size[2];
-    int layers, steps, refine, maxEvents, layerSize;
-    int branches; ///< as vtFrame has them
-    int samples;  ///< a pixel
+    bool hasCamera, hasTarget, hasFov; ///< of frame.view, given
+    int cameraIndex;                   ///< of the file's cameras; -1: none of them
+    int samples;                       ///< a pixel; of the reference, more than a frame can have
     float referenceThreshold;
     float relief, slab, smooth; ///< of MODEL; -1: not given
     int reliefSize;             ///< samples along a side of a built-in relief
@@ -62,7 +51,6 @@ typedef enum vtCommand {
     vt_commandRender,
     vt_commandView,
     vt_commandLadder,
-    vt_commandThesis,
     vt_commandBench,
     vt_commandRays
 } vtCommand;

@@ -9,9 +9,10 @@
 #include "cli/session.h"
 #include "cli/trace.h"
 #include "image/image.h"
-#include "lab/bench/timing.h"
+#include "image/pfm.h"
 #include "lab/metrics/metrics_image.h"
 #include "lab/metrics/metrics_map.h"
+#include "lab/metrics/timing.h"
 #include "technique/technique.h"
 
 /// A file to be written once everything has been drawn.
@@ -218,7 +219,7 @@ static vtResult compareWithReference(const vtOptions* options, const vtFrame* fr
         return result;
     }
     result = vtDecodeImageLinear(bytes, size, options->reference, &wanted, &width, &height, error);
-    free(bytes);
+    vtFree(bytes);
     if (result != vt_ok) {
         return result;
     }
@@ -254,11 +255,11 @@ static vtResult compareWithReference(const vtOptions* options, const vtFrame* fr
                 options->reference, difference.flip, (double)options->referenceThreshold, path);
         }
     }
-    free(encoded);
+    vtFree(encoded);
     free(colors);
     free(map);
     free(drawn);
-    free(wanted);
+    vtFree(wanted);
     return result;
 }
 
@@ -290,7 +291,7 @@ vtResult vtRunRender(const vtOptions* options, vtError* error)
         result = compareWithReference(options, &frame, pixels, error);
     }
     for (int i = 0; i < outputCount; ++i) {
-        free(outputs[i].bytes);
+        vtFree(outputs[i].bytes);
     }
     free(pixels);
     return result;

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "lab/bench/timing.h"
+#include "lab/metrics/timing.h"
 
 bool vtIsReference(const vtOptions* options)
 {

@@ -7,7 +7,9 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/files.h"
+#include "cli/json.h"
 #include "image/image.h"
+#include "image/pfm.h"
 #include "lab/metrics/metrics.h"
 #include "lab/metrics/metrics_image.h"
 #include "lab/metrics/metrics_map.h"
@@ -149,7 +151,7 @@ static vtResult loadInput(const char* path, Input* input, vtError* error)
     } else {
         result = vtDecodeImageLinear(bytes, size, path, &input->pixels, &input->width, &input->height, error);
     }
-    free(bytes);
+    vtFree(bytes);
     return result;
 }
 
@@ -178,7 +180,7 @@ static vtResult loadEvents(const char* path, const Input* truth, uint8_t** event
         }
         (*events)[i] = (uint8_t)(255.0f * fminf(fmaxf(vtLinearToSrgb(p[0]), 0.0f), 1.0f) + 0.5f);
     }
-    free(image.pixels);
+    vtFree(image.pixels);
     return result;
 }
 
@@ -190,32 +192,42 @@ static vtResult writeDifference(const char* path, const uint8_t* rgb, const Inpu
     if (result == vt_ok) {
         result = vtWriteFile(path, bytes, length, error);
     }
-    free(bytes);
+    vtFree(bytes);
     return result;
 }
 
-static void printPictureError(const Request* request, const Input* size, const vtPictureError* measured)
+static void printPictureJson(const Request* request, const Input* size, const vtPictureError* measured)
 {
     const size_t over = vtPictureError_CountOver(measured, request->threshold);
-    const double share = (double)over / (double)measured->pixels;
+    vtJson json = {.out = stdout};
+    vtJson_BeginObject(&json, NULL);
+    vtJson_Text(&json, "kind", "pictures");
+    vtJson_Integer(&json, "width", size->width);
+    vtJson_Integer(&json, "height", size->height);
+    vtJson_Number(&json, "psnr", measured->psnr, 4);
+    vtJson_Number(&json, "ssim", measured->ssim, 6);
+    vtJson_Number(&json, "flip", measured->flip, 6);
+    vtJson_Integer(&json, "threshold", request->threshold);
+    vtJson_Integer(&json, "pixelsOver", (long long)over);
+    vtJson_Number(&json, "shareOver", (double)over / (double)measured->pixels, 6);
+    vtJson_Integer(&json, "largestDifference", measured->largest);
+    vtJson_EndObject(&json);
+    putchar('\n');
+}
+
+static void printPictureError(const Request* request, const vtPictureError* measured)
+{
+    const size_t over = vtPictureError_CountOver(measured, request->threshold);
     char psnr[32] = "equal";
     if (isfinite(measured->psnr)) {
-        snprintf(psnr, sizeof psnr, request->json ? "%.4f" : "%.2f dB", measured->psnr);
-    }
-    if (request->json) {
-        printf("{\"kind\": \"pictures\", \"width\": %d, \"height\": %d, \"psnr\": %s, \"ssim\": %.6f, "
-               "\"flip\": %.6f, \"threshold\": %d, \"pixelsOver\": %zu, \"shareOver\": %.6f, "
-               "\"largestDifference\": %d}\n",
-               size->width, size->height, isfinite(measured->psnr) ? psnr : "null", measured->ssim,
-               measured->flip, request->threshold, over, share, measured->largest);
-        return;
+        snprintf(psnr, sizeof psnr, "%.2f dB", measured->psnr);
     }
     printf("PSNR       %s\n"
            "SSIM       %.5f\n"
            "FLIP mean  %.5f\n"
            "over %-3d   %zu of %zu pixels, %.2f %%; largest difference %d of 255\n",
-           psnr, measured->ssim, measured->flip, request->threshold, over, measured->pixels, 100.0 * share,
-           measured->largest);
+           psnr, measured->ssim, measured->flip, request->threshold, over, measured->pixels,
+           100.0 * (double)over / (double)measured->pixels, measured->largest);
 }
 
 static vtResult comparePictures(const Request* request, const Input inputs[2], vtError* error)
@@ -241,7 +253,11 @@ static vtResult comparePictures(const Request* request, const Input inputs[2], v
         result = writeDifference(request->difference, rgb, inputs, error);
     }
     if (result == vt_ok) {
-        printPictureError(request, inputs, &measured);
+        if (request->json) {
+            printPictureJson(request, inputs, &measured);
+        } else {
+            printPictureError(request, &measured);
+        }
     }
     free(flipMap);
     free(rgb);
@@ -255,33 +271,48 @@ typedef struct DirectionReport {
     bool split;
 } DirectionReport;
 
-static void printJsonShares(const vtDirectionError* e)
+static void writeShares(vtJson* json, const vtDirectionError* e)
 {
-    printf("\"pixels\": %zu, \"within01\": %.6f, \"within1\": %.6f, \"within5\": %.6f, \"median\": %.6f, "
-           "\"lost\": %.6f, \"maskErrors\": %zu",
-           e->pixels, e->within01, e->within1, e->within5, e->median, e->lost, e->maskErrors);
+    vtJson_Integer(json, "pixels", (long long)e->pixels);
+    vtJson_Number(json, "within01", e->within01, 6);
+    vtJson_Number(json, "within1", e->within1, 6);
+    vtJson_Number(json, "within5", e->within5, 6);
+    vtJson_Number(json, "median", e->median, 6);
+    vtJson_Number(json, "lost", e->lost, 6);
+    vtJson_Integer(json, "maskErrors", (long long)e->maskErrors);
+}
+
+static void writeSharesOf(vtJson* json, const char* name, const vtDirectionError* e)
+{
+    vtJson_BeginObject(json, name);
+    writeShares(json, e);
+    vtJson_EndObject(json);
 }
 
 static void printJsonReport(const Input* size, const DirectionReport* report)
 {
-    printf("{\"kind\": \"directions\", \"width\": %d, \"height\": %d, ", size->width, size->height);
-    printJsonShares(&report->all);
+    vtJson json = {.out = stdout};
+    vtJson_BeginObject(&json, NULL);
+    vtJson_Text(&json, "kind", "directions");
+    vtJson_Integer(&json, "width", size->width);
+    vtJson_Integer(&json, "height", size->height);
+    writeShares(&json, &report->all);
     if (report->split) {
-        printf(", \"upTo4Events\": {");
-        printJsonShares(&report->upTo4);
-        printf("}, \"upTo6Events\": {");
-        printJsonShares(&report->upTo6);
-        printf("}, \"byEvents\": [");
+        writeSharesOf(&json, "upTo4Events", &report->upTo4);
+        writeSharesOf(&json, "upTo6Events", &report->upTo6);
+        vtJson_BeginArray(&json, "byEvents");
         for (int i = 0; i < VT_EVENT_GROUPS; ++i) {
-            vtEventRange range = vtEventGroup(i);
-            printf("%s{\"from\": %d, \"to\": ", i > 0 ? ", " : "", range.low);
-            printf(range.high == 255 ? "null, " : "%d, ", range.high);
-            printJsonShares(&report->groups[i]);
-            printf("}");
+            const vtEventRange range = vtEventGroup(i);
+            vtJson_BeginObject(&json, NULL);
+            vtJson_Integer(&json, "from", range.low);
+            vtJson_Number(&json, "to", range.high == 255 ? (double)INFINITY : range.high, 0);
+            writeShares(&json, &report->groups[i]);
+            vtJson_EndObject(&json);
         }
-        printf("]");
+        vtJson_EndArray(&json);
     }
-    printf("}\n");
+    vtJson_EndObject(&json);
+    putchar('\n');
 }
 
 static void printRow(const char* name, const vtDirectionError* e)
@@ -395,7 +426,7 @@ vtResult vtRunCompare(int count, char** words, vtError* error)
     if (result == vt_ok) {
         result = compareInputs(&request, inputs, error);
     }
-    free(inputs[0].pixels);
-    free(inputs[1].pixels);
+    vtFree(inputs[0].pixels);
+    vtFree(inputs[1].pixels);
     return result;
 }

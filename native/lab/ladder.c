@@ -11,9 +11,9 @@
 #include "cli/session.h"
 #include "cli/trace.h"
 #include "image/image.h"
-#include "lab/bench/timing.h"
 #include "lab/metrics/metrics.h"
 #include "lab/metrics/metrics_image.h"
+#include "lab/metrics/timing.h"
 #include "lab/sheet.h"
 #include "scene/objects.h"
 
@@ -209,7 +209,7 @@ static vtResult writeSheet(const char* path, const Ladder* ladder, vtError* erro
     if (result == vt_ok) {
         result = vtWriteFile(path, bytes, size, error);
     }
-    free(bytes);
+    vtFree(bytes);
     vtDestroySheet(&sheet);
     return result;
 }

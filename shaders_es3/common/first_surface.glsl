@@ -11,7 +11,7 @@ SurfaceHit firstSurface(out vec3 direction)
     float depth = uintBitsToFloat(surface.z);
     vec2 tangent = pictureTangent(gl_FragCoord.xy);
     direction = cameraDirection(tangent);
-    return SurfaceHit(u_eye.xyz + vec3(tangent * depth, depth) * mat3(u_worldToCamera), unpackNormal(surface.x),
+    return SurfaceHit(pointAtDepth(tangent, depth), unpackNormal(surface.x),
                       unpackNormal(surface.y), int(surface.w) - 1);
 }
 

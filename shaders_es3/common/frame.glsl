@@ -15,6 +15,10 @@ layout(std140) uniform Frame
     ivec4 u_size;    // picture width, height, layer width, height
     ivec4 u_scene;   // objects of glass, objects, Fresnel reflection, the technique finds what is opaque itself
     ivec4 u_output;  // vtOutput, layer, vtEnvironmentKind, transparent background
+    ivec4 u_host;    // the picture's lower left corner in the framebuffer; linear light is wanted; 1: the host gives
+                     // colours, 2: depths, 4: its colours are linear
+    vec4 u_clip;     // third row of the host's projection: element of depth, constant; depth from which on there is
+                     // nothing; 1: it is orthographic, and tangents are world units
 };
 
 // A texel by its column and row. Software renderers take half as long for it as for texelFetch. For textures of one
@@ -27,7 +31,19 @@ layout(std140) uniform Frame
 vec3 cameraDirection(vec2 tangent)
 {
     // The camera frame is orthonormal, so its transpose turns camera coordinates into world ones.
-    return normalize(vec3(tangent, 1.0) * mat3(u_worldToCamera));
+    return normalize(vec3(tangent * (1.0 - u_clip.w), 1.0) * mat3(u_worldToCamera));
+}
+
+// Where the eye ray of that point begins: the eye; orthographic, the point beside it.
+vec3 eyePosition(vec2 tangent)
+{
+    return u_eye.xyz + u_clip.w * (vec3(tangent, 0.0) * mat3(u_worldToCamera));
+}
+
+// The world point at a depth on that ray.
+vec3 pointAtDepth(vec2 tangent, float depth)
+{
+    return u_eye.xyz + vec3(tangent * mix(depth, 1.0, u_clip.w), depth) * mat3(u_worldToCamera);
 }
 
 // Tangents at a pixel position (pixel centres at .5, origin bottom left).

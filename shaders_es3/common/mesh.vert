@@ -21,9 +21,10 @@ void main()
 {
     vec3 p = (u_worldToCamera * vec4(toWorld(vec4(a_position, 1.0)), 1.0)).xyz;
     vec4 f = FRUSTUM, d = DEPTH_RANGE;
-    vec2 xy = (2.0 * p.xy - (f.xy + f.zw) * p.z) / (f.zw - f.xy);
-    float z = ((d.x + d.y) * p.z - 2.0 * d.x * d.y) * d.z;
-    gl_Position = vec4(xy, z, p.z);
+    bool parallel = u_clip.w != 0.0; // orthographic
+    float w = parallel ? 1.0 : p.z;
+    float z = parallel ? 2.0 * p.z - d.x - d.y : (d.x + d.y) * p.z - 2.0 * d.x * d.y;
+    gl_Position = vec4((2.0 * p.xy - (f.xy + f.zw) * w) / (f.zw - f.xy), z * d.z, w);
     v_camera = p;
     v_normal = a_normal.x * u_toObject[0].xyz + a_normal.y * u_toObject[1].xyz + a_normal.z * u_toObject[2].xyz;
 #ifdef INNER_DISTANCE

@@ -25,7 +25,7 @@ void writePath(Path p, int status)
 // A path of the techniques that blend, from the eye: `transmittance` is left of what lies behind, `added` before it.
 void writeBlended(vec3 direction, int events, float transmittance, vec3 added)
 {
-    Path p = startPath(u_eye.xyz, direction);
+    Path p = startPath(u_eye.xyz, direction); // none of them is orthographic
     p.events = events;
     writePath(p, events > 0 ? VT_PATH_EXITED : VT_PATH_BACKGROUND);
     writeHalves(vec3(transmittance), added);

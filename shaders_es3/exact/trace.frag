@@ -2,12 +2,12 @@
 // it has left all glass for good or ends on something opaque, then the light that left it on the way, and sums up what
 // comes back. What is seen first is found by the same search.
 uniform int u_branches; // times that light which left a path is followed
-#ifndef WITH_OPAQUE // lighting.glsl has it
-uniform sampler2D u_environment;
-#endif
 
 layout(location = 0) out uvec4 o_path;     // last direction (bits of three floats), state
 layout(location = 1) out uvec4 o_radiance; // bits of floats: linear light after exposure, share of the pixel it covers
+#ifdef WITH_DEPTH
+layout(location = 2) out uint o_depth; // bits of a float: of what is seen first, in front of the eye; 0: nothing
+#endif
 
 // Far more surfaces than paths meet, so that no fault of the data hangs the GPU.
 const int MOST_SURFACES = 256;
@@ -24,6 +24,9 @@ const Meeting NO_MEETING = Meeting(NOWHERE, VT_NO_TRIANGLE, vec2(0.0), -1, -1);
 End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
 {
     End end = End(VT_PATH_LOST, NO_MEETING);
+#ifdef WITH_DEPTH
+    float depth = 0.0;
+#endif
     Start start = Start(p.position, p.direction, media, -1, VT_NO_TRIANGLE, isFresh, false, isDirect);
     // What is read after the loop is kept from round to round: software renderers (Mesa 22.3) spoil it otherwise.
     for (int surface = 0; surface < MOST_SURFACES; ++surface) {
@@ -38,6 +41,9 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
         bool isOut = !isMet && (start.media == AIR || isDirect);
         end.status = isOut ? (start.isEye ? VT_PATH_BACKGROUND : VT_PATH_EXITED) : isOpaque ? VT_PATH_OPAQUE : end.status;
         bool more = isMet && !isOpaque && !isLast;
+#ifdef WITH_DEPTH
+        depth = isMet && start.isEye ? met.distance * (mat3(u_worldToCamera) * p.direction).z : depth;
+#endif
 #ifdef WITH_OPAQUE // WebGL has no ?: of structures
         end.meeting.triangle = isOpaque ? met.triangle : end.meeting.triangle;
         end.meeting.at = isOpaque ? met.at : end.meeting.at;
@@ -64,17 +70,20 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
             break;
         }
     }
+#ifdef WITH_DEPTH
+    o_depth = isFresh ? floatBitsToUint(depth) : o_depth;
+#endif
     return end;
 }
 
 // Light that a ray brings; what is opaque at its end, if anything.
 vec3 lightAlong(vec3 direction, Meeting opaque, vec3 position)
 {
-    vec3 light = environmentRadiance(u_output.z, u_environment, direction); // a lost path sees it, too
+    vec3 light = surroundings(position, direction); // a lost path sees it, too
 #ifdef WITH_OPAQUE
     if (opaque.triangle != VT_NO_TRIANGLE) {
         float pixel = (u_pictureFrustum.w - u_pictureFrustum.y) / float(u_size.y);
-        light = shadeSurface(opaque.object, RecordHit(0.0, opaque.triangle, opaque.at), direction, pixel * length(position - u_eye.xyz));
+        light = shadeSurface(opaque.object, RecordHit(0.0, opaque.triangle, opaque.at), direction, pixel * mix(length(position - u_eye.xyz), 1.0, u_clip.w));
     }
 #endif
     return light;
@@ -91,13 +100,13 @@ void main()
 #ifdef ONE_OBJECT
     readObject();
 #endif
+    vec2 tangent = pictureTangent(gl_FragCoord.xy);
+    Path p = startPath(eyePosition(tangent), cameraDirection(tangent));
 #ifdef STRICT
-    Path p = startPath(u_eye.xyz, cameraDirection(pictureTangent(gl_FragCoord.xy)));
     End end = followPath(p, AIR, true, false);
     o_path = uvec4(floatBitsToUint(p.direction), pathState(p, end.status));
     writeLight(p.transmittance * lightAlong(p.direction, end.meeting, p.position), end.status);
 #else
-    Path p = startPath(u_eye.xyz, cameraDirection(pictureTangent(gl_FragCoord.xy)));
     Media media = AIR;
     vec3 light = vec3(0.0);
     uvec4 path = uvec4(0u);

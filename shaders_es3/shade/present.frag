@@ -24,7 +24,7 @@ vec3 analysisColor(uvec4 path)
 
 vec3 layerColor()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy / vec2(u_size.xy) * vec2(u_size.zw));
+    ivec2 texel = ivec2((gl_FragCoord.xy - vec2(u_host.xy)) / vec2(u_size.xy) * vec2(u_size.zw));
     uint depth = texelFetch(u_layerDepths, ivec3(texel, u_output.y), 0).r;
     if (depth == VT_DEPTH_NONE) {
         return vec3(0.12, 0.16, 0.30);
@@ -37,11 +37,12 @@ vec3 layerColor()
 
 void main()
 {
-    vec4 light = uintBitsToFloat(readTexel(u_radiance, ivec2(gl_FragCoord.xy), u_size.xy));
+    ivec2 pixel = ivec2(gl_FragCoord.xy) - u_host.xy;
+    vec4 light = uintBitsToFloat(readTexel(u_radiance, pixel, u_size.xy));
     if (u_output.x == VT_OUTPUT_PICTURE) {
-        o_color = vec4(linearToSrgb(min(light.rgb, 1.0)), light.a);
+        o_color = u_host.z != 0 ? light : vec4(linearToSrgb(min(light.rgb, 1.0)), light.a);
     } else if (u_output.x == VT_OUTPUT_ANALYSIS) {
-        uvec4 path = texelFetch(u_paths, ivec2(gl_FragCoord.xy), 0);
+        uvec4 path = texelFetch(u_paths, pixel, 0);
         bool isClear = u_output.w != 0 && int(path.w) == VT_PATH_BACKGROUND;
         o_color = isClear ? vec4(0.0) : vec4(analysisColor(path), 1.0);
     } else {

@@ -3,9 +3,6 @@ uniform usampler2D u_paths;
 uniform usampler2D u_ends;
 uniform usampler2D u_lights;
 uniform usampler2D u_asides;
-#ifndef WITH_OPAQUE // lighting.glsl has it
-uniform sampler2D u_environment;
-#endif
 
 layout(location = 0) out uvec4 o_radiance; // bits of floats: linear light after exposure, share of the pixel it covers
 
@@ -14,7 +11,7 @@ vec3 opaqueLight(OpaqueHit opaque, vec3 origin, vec3 direction)
 {
     float pixel = (u_pictureFrustum.w - u_pictureFrustum.y) / float(u_size.y);
     vec3 position = origin + opaque.hit.distance * direction;
-    return shadeSurface(opaque.object, opaque.hit, direction, pixel * length(position - u_eye.xyz));
+    return shadeSurface(opaque.object, opaque.hit, direction, pixel * mix(length(position - u_eye.xyz), 1.0, u_clip.w));
 }
 #endif
 
@@ -32,7 +29,7 @@ float strongest(vec3 light)
 Ray firstReflection(uvec4 surface, vec2 tangent, vec3 direction)
 {
     float depth = uintBitsToFloat(surface.z);
-    vec3 position = u_eye.xyz + vec3(tangent * depth, depth) * mat3(u_worldToCamera);
+    vec3 position = pointAtDepth(tangent, depth);
     vec3 N = unpackNormal(surface.x), G = unpackNormal(surface.y);
     float eta = 1.0 / objectNumbers(int(surface.w) - 1, VT_OBJECT_GLASS).x;
     bool isWithin = dot(G, direction) >= 0.0; // the eye is
@@ -54,7 +51,8 @@ void main()
     // Up to three rays to light: the path's end, what went aside, what the first surface reflects. They are looked at in
     // a loop because software renderers compute both sides of every branch.
     int count = 1;
-    Ray end = Ray(u_eye.xyz, view, vec3(1.0)), aside = Ray(u_eye.xyz, view, vec3(0.0)), first = aside;
+    vec3 eye = eyePosition(tangent);
+    Ray end = Ray(eye, view, vec3(1.0)), aside = Ray(eye, view, vec3(0.0)), first = aside;
 #ifdef WITH_OPAQUE
     OpaqueHit known = NOTHING_OPAQUE; // where the first of them ends
     bool isSearched = isBackground || (status == VT_PATH_EXITED && u_scene.w == 0);
@@ -89,7 +87,7 @@ void main()
         ray.origin = i == 1 ? first.origin : i == 2 ? aside.origin : ray.origin;
         ray.direction = i == 1 ? first.direction : i == 2 ? aside.direction : ray.direction;
         ray.weight = i == 1 ? first.weight : i == 2 ? aside.weight : ray.weight;
-        vec3 seen = environmentRadiance(u_output.z, u_environment, ray.direction); // a lost path sees it, too
+        vec3 seen = surroundings(ray.origin, ray.direction); // a lost path sees it, too
 #ifdef WITH_OPAQUE
         OpaqueHit opaque = known;
         if (i > 0 || isSearched) {

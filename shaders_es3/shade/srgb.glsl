@@ -1,3 +1,8 @@
+vec3 srgbToLinear(vec3 c)
+{
+    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
+}
+
 vec3 linearToSrgb(vec3 c)
 {
     c = clamp(c, 0.0, 1.0);

@@ -4,5 +4,14 @@
 #ifdef __EMSCRIPTEN__
 #define VT_ABOUT(text) ""
 #else
+#define VT_WITH_ABOUT ///< structs have the fields that hold nothing else
 #define VT_ABOUT(text) text
+#endif
+
+/// Views as matrices, and pictures of a host's: vtFrame.viewMatrix, overlay and hostColor. A page's element
+/// has its canvas to itself, and goes without what it does not use.
+#ifndef __EMSCRIPTEN__
+#define VT_WITH_HOST 1
+#else
+#define VT_WITH_HOST 0
 #endif

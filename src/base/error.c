@@ -15,6 +15,11 @@ vtResult vtFail(vtError* error, vtResult result, const char* format, ...)
     return result;
 }
 
+vtResult(vtFailMissing)(vtError* error, const char* call, const char* what)
+{
+    return vtFail(error, vt_errorArgument, "%s: %s is NULL; give one", call, what);
+}
+
 vtResult vtSucceed(vtError* error)
 {
     if (error != NULL) {

@@ -1,8 +1,7 @@
 #include "gl/environment_buffer.h"
 
-#include <stdlib.h>
-
 #include "base/error.h"
+#include "base/memory.h"
 #include "gl/lighting_texture.h"
 
 void vtEnvironmentBuffer_Create(vtEnvironmentBuffer* buffer, const vtGL* gl)
@@ -21,7 +20,7 @@ static vtResult shrinkEnvironment(const vtEnvironment* environment, vtEnvironmen
     const int factor = (environment->width + 511) / 512;
     shrunk->width = environment->width / factor;
     shrunk->height = environment->height / factor > 0 ? environment->height / factor : 1;
-    shrunk->pixels = calloc((size_t)shrunk->width * (size_t)shrunk->height, 3 * sizeof(float));
+    shrunk->pixels = vtAllocateZeroed((size_t)shrunk->width * (size_t)shrunk->height, 3 * sizeof(float));
     if (shrunk->pixels == NULL) {
         return vtFail(error, vt_errorMemory, "environment: out of memory");
     }

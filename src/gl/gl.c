@@ -34,15 +34,21 @@ vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
     (void)getProcAddress;
 #define VT_GL_LOAD(type, name) gl->name = gl##name;
     VT_GL_FUNCTIONS(VT_GL_LOAD)
+    VT_GL_HOST_FUNCTIONS(VT_GL_LOAD)
 #undef VT_GL_LOAD
 #else
     const char* missing = NULL;
+    if (getProcAddress == NULL) {
+        return vtFail(error, vt_errorArgument,
+                      "renderer: getProcAddress is NULL; give the context's, as glfwGetProcAddress");
+    }
 #define VT_GL_LOAD(type, name)                                                                               \
     gl->name = (type)getProcAddress("gl" #name);                                                             \
     if (gl->name == NULL && missing == NULL) {                                                               \
         missing = "gl" #name;                                                                                \
     }
     VT_GL_FUNCTIONS(VT_GL_LOAD)
+    VT_GL_HOST_FUNCTIONS(VT_GL_LOAD)
 #undef VT_GL_LOAD
     if (missing != NULL) {
         return vtFail(error, vt_errorContext,
@@ -59,6 +65,7 @@ vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
         return vtFail(error, vt_errorContext,
                       "GL: the context is '%s'; OpenGL ES 3.0, WebGL 2 or desktop GL 3.3 is needed", version);
     }
+    gl->isDesktop = strstr(version, "OpenGL ES ") == NULL;
     gl->parallelCompile = hasExtension(gl, "GL_KHR_parallel_shader_compile");
     return vtSucceed(error);
 }

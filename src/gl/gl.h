@@ -7,6 +7,7 @@
 #endif
 #include <GLES3/gl3.h>
 
+#include "base/about.h"
 #include "vitrine.h"
 
 // X(loader's pointer type, name without gl)
@@ -16,6 +17,7 @@
     X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                       \
     X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                               \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                             \
+    X(PFNGLBINDSAMPLERPROC, BindSampler)                                                                     \
     X(PFNGLBINDTEXTUREPROC, BindTexture)                                                                     \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                             \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                                       \
@@ -25,6 +27,7 @@
     X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                                                               \
     X(PFNGLCOLORMASKPROC, ColorMask)                                                                         \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                 \
+    X(PFNGLCOPYTEXSUBIMAGE2DPROC, CopyTexSubImage2D)                                                         \
     X(PFNGLCOPYTEXSUBIMAGE3DPROC, CopyTexSubImage3D)                                                         \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                 \
     X(PFNGLCREATESHADERPROC, CreateShader)                                                                   \
@@ -42,6 +45,7 @@
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                   \
     X(PFNGLENABLEPROC, Enable)                                                                               \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                             \
+    X(PFNGLFRONTFACEPROC, FrontFace)                                                                         \
     X(PFNGLFINISHPROC, Finish)                                                                               \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                   \
     X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, FramebufferTextureLayer)                                             \
@@ -78,10 +82,24 @@
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                     \
     X(PFNGLVIEWPORTPROC, Viewport)
 
+// Those that only a host's picture takes.
+#if VT_WITH_HOST
+#define VT_GL_HOST_FUNCTIONS(X)                                                                              \
+    X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                                 \
+    X(PFNGLBLENDFUNCPROC, BlendFunc)                                                                         \
+    X(PFNGLDELETESAMPLERSPROC, DeleteSamplers)                                                               \
+    X(PFNGLGENSAMPLERSPROC, GenSamplers)                                                                     \
+    X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)
+#else
+#define VT_GL_HOST_FUNCTIONS(X)
+#endif
+
 typedef struct vtGL {
 #define VT_GL_MEMBER(type, name) type name;
     VT_GL_FUNCTIONS(VT_GL_MEMBER)
+    VT_GL_HOST_FUNCTIONS(VT_GL_MEMBER)
 #undef VT_GL_MEMBER
+    bool isDesktop;       ///< desktop GL, not OpenGL ES or WebGL
     bool parallelCompile; ///< KHR_parallel_shader_compile: the driver tells when a program is ready
 } vtGL;
 

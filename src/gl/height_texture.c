@@ -25,7 +25,7 @@ vtResult vtHeightTexture_Create(vtHeightTexture* texture, const vtGL* gl, const 
                           .height = field->tileRows,
                           .mipmapped = true};
     gl->GenTextures(1, &ranges->name);
-    vtTexture_Bind(ranges, gl, 0);
+    vtTexture_Bind(ranges, gl, vt_samplerNone);
     gl->TexStorage2D(GL_TEXTURE_2D, field->levelCount, GL_RG32F, field->tileColumns, field->tileRows);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

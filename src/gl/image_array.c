@@ -1,7 +1,6 @@
 #include "gl/image_array.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -16,6 +15,9 @@ typedef enum Use {
 static Use useOf(const vtScene* scene, int image)
 {
     Use use = useNone;
+    if (scene->materials == NULL) {
+        use = scene->images[image].linear ? useLinear : useSrgb;
+    }
     for (uint32_t i = 0; i < scene->materialCount; ++i) {
         const vtMaterial* material = &scene->materials[i];
         if (material->opaque && material->baseColorImage == image) {
@@ -103,12 +105,12 @@ static bool makeLayer(const vtImage* image, Use use, int side, uint8_t* layer)
         memcpy(layer, image->pixels, 4 * (size_t)side * (size_t)side);
         return true;
     }
-    Curves* curves = malloc(sizeof *curves);
+    Curves* curves = vtAllocate(1, sizeof *curves);
     // Rows of the right length first, as many as the image has.
     const size_t most = (size_t)(image->height > side ? image->height : side);
-    float* wide = malloc(3 * sizeof(float) * (size_t)side * most);
-    float* line = malloc(3 * sizeof(float) * (size_t)image->width);
-    float* column = malloc(3 * sizeof(float) * (size_t)side * (size_t)side);
+    float* wide = vtAllocate((size_t)side * most, 3 * sizeof(float));
+    float* line = vtAllocate((size_t)image->width, 3 * sizeof(float));
+    float* column = vtAllocate((size_t)side * (size_t)side, 3 * sizeof(float));
     const bool ready = curves != NULL && wide != NULL && line != NULL && column != NULL;
     if (ready) {
         makeCurves(curves, use);
@@ -127,10 +129,10 @@ static bool makeLayer(const vtImage* image, Use use, int side, uint8_t* layer)
             layer[i] = i % 4 == 3 ? 255 : curves->toByte[(int)(column[3 * (i / 4) + i % 4] * last + 0.5f)];
         }
     }
-    free(curves);
-    free(wide);
-    free(line);
-    free(column);
+    vtFree(curves);
+    vtFree(wide);
+    vtFree(line);
+    vtFree(column);
     return ready;
 }
 
@@ -144,7 +146,7 @@ static vtTexture makeArray(const vtGL* gl, int side, int layers)
         ++levels;
     }
     gl->GenTextures(1, &made.name);
-    gl->ActiveTexture(GL_TEXTURE0);
+    gl->ActiveTexture(GL_TEXTURE0 + vt_samplerNone);
     gl->BindTexture(made.target, made.name);
     gl->TexStorage3D(made.target, levels, made.format, side, side, layers);
     gl->TexParameteri(made.target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
@@ -163,7 +165,7 @@ vtResult vtImageArray_Upload(vtTexture* texture, const vtGL* gl, const vtScene* 
         return vtFail(error, vt_errorContext,
                       "scene: it has %d images, this GPU takes %d; leave out what is not used", layers, most);
     }
-    uint8_t* layer = malloc(4 * (size_t)side * (size_t)side);
+    uint8_t* layer = vtAllocate((size_t)side * (size_t)side, 4);
     vtTexture fresh = makeArray(gl, side, layers);
     bool ready = layer != NULL;
     for (int i = 0; i < layers && ready; ++i) {
@@ -175,7 +177,7 @@ vtResult vtImageArray_Upload(vtTexture* texture, const vtGL* gl, const vtScene* 
             gl->TexSubImage3D(fresh.target, 0, 0, 0, i, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE, layer);
         }
     }
-    free(layer);
+    vtFree(layer);
     gl->GenerateMipmap(fresh.target);
     vtResult result = vtCheckGL(gl, "uploading the scene's images", error);
     if (!ready) {

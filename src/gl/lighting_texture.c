@@ -1,9 +1,8 @@
 #include "gl/lighting_texture.h"
 
-#include <stdlib.h>
-
 #include "base/error.h"
 #include "base/math.h"
+#include "base/memory.h"
 
 enum { side = VT_LIGHTING_SIDE };
 
@@ -20,7 +19,7 @@ static void writeTexel(float* texel, vtVec3 light)
 vtResult vtLightingTexture_Upload(vtTexture* texture, const vtGL* gl, const vtLighting* lighting,
                                   vtError* error)
 {
-    float* texels = calloc((size_t)side * (side + 1), 4 * sizeof *texels);
+    float* texels = vtAllocateZeroed((size_t)side * (side + 1), 4 * sizeof *texels);
     if (texels == NULL) {
         return vtFail(error, vt_errorMemory, "lighting: out of memory");
     }
@@ -33,7 +32,7 @@ vtResult vtLightingTexture_Upload(vtTexture* texture, const vtGL* gl, const vtLi
     vtTexture fresh = {0};
     vtTexture_Resize(&fresh, gl, GL_RGBA16F, side, side + 1, 0);
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side + 1, GL_RGBA, GL_FLOAT, texels);
-    free(texels);
+    vtFree(texels);
     const vtResult result = vtCheckGL(gl, "uploading the lighting", error);
     vtTexture* old = result == vt_ok ? texture : &fresh;
     vtTexture_Destroy(old, gl);

@@ -1,14 +1,12 @@
 #include "gl/mesh_buffer.h"
 
-#include <stdlib.h>
-
 #include "base/error.h"
 
 /// Into the buffer that is bound: positions from the origin, then normals. False where memory is out.
 static bool uploadVertices(const vtGL* gl, const vtMesh* mesh, vtVec3 origin)
 {
     const size_t bytes = 3 * sizeof(float) * (size_t)mesh->vertexCount;
-    float* positions = malloc(bytes);
+    float* positions = vtAllocate(1, bytes);
     if (positions == NULL) {
         return false;
     }
@@ -18,7 +16,7 @@ static bool uploadVertices(const vtGL* gl, const vtMesh* mesh, vtVec3 origin)
     }
     gl->BufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)bytes, positions);
     gl->BufferSubData(GL_ARRAY_BUFFER, (GLintptr)bytes, (GLsizeiptr)bytes, mesh->normals);
-    free(positions);
+    vtFree(positions);
     return true;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "base/memory.h"
 
 typedef struct Item {
     float low[3], high[3];
@@ -70,11 +71,11 @@ vtResult vtObjectTree_Upload(vtTexture* texture, const vtGL* gl, const vtObjectB
                              uint32_t count, vtError* error)
 {
     const uint32_t nodes = 2 * count - 1, rows = (nodes + VT_OBJECT_NODES_A_ROW - 1) / VT_OBJECT_NODES_A_ROW;
-    Item* items = malloc(count * sizeof *items);
-    uint32_t* words = calloc((size_t)rows * VT_OBJECT_NODES_A_ROW, 8 * sizeof *words);
+    Item* items = vtAllocate(count, sizeof *items);
+    uint32_t* words = vtAllocateZeroed((size_t)rows * VT_OBJECT_NODES_A_ROW, 8 * sizeof *words);
     if (items == NULL || words == NULL) {
-        free(items);
-        free(words);
+        vtFree(items);
+        vtFree(words);
         return vtFail(error, vt_errorMemory, "scene: out of memory for a tree of %u objects", count);
     }
     for (uint32_t i = 0; i < count; ++i) {
@@ -86,10 +87,10 @@ vtResult vtObjectTree_Upload(vtTexture* texture, const vtGL* gl, const vtObjectB
     }
     writeTree(items, count, 0, words);
     vtTexture_Resize(texture, gl, GL_RGBA32UI, 2 * VT_OBJECT_NODES_A_ROW, (int)rows, 0);
-    vtTexture_Bind(texture, gl, 0);
+    vtTexture_Bind(texture, gl, vt_samplerNone);
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 2 * VT_OBJECT_NODES_A_ROW, (GLsizei)rows, GL_RGBA_INTEGER,
                       GL_UNSIGNED_INT, words);
-    free(items);
-    free(words);
+    vtFree(items);
+    vtFree(words);
     return vtSucceed(error);
 }

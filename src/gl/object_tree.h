@@ -2,7 +2,8 @@
 // depth first, each with the place of what follows when it is passed over.
 #pragma once
 
-#include "gl/scene_buffer.h"
+#include "gl/object_buffer.h"
+#include "gl/target.h"
 #include "shaders_es3/common/constants.h"
 
 /// Makes the RGBA32UI texture: two texels a node, VT_OBJECT_NODES_A_ROW nodes a row; low corner (bits of

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "gl/target.h"
 #include "gl/uniforms.h"
 #include "shaders.h"
 
@@ -17,6 +18,33 @@ static const vtChunk header = {"header", "#version 300 es\n"
                                          "precision highp sampler2DArray;\n"
                                          "precision highp usampler2D;\n"
                                          "precision highp usampler2DArray;\n"};
+
+static const char* const samplerNames[vt_samplerCount] = {
+    [vt_samplerSurface] = "u_surface",
+    [vt_samplerInnerDistances] = "u_innerDistances",
+    [vt_samplerLayerDepths] = "u_layerDepths",
+    [vt_samplerLayerNormals] = "u_layerNormals",
+    [vt_samplerMergedDepths] = "u_mergedDepths",
+    [vt_samplerPreviousDepth] = "u_previousDepth",
+    [vt_samplerObjects] = "u_objects",
+    [vt_samplerRecords] = "u_records",
+    [vt_samplerObjectTree] = "u_objectTree",
+    [vt_samplerAttributes] = "u_attributes",
+    [vt_samplerImages] = "u_images",
+    [vt_samplerHeights] = "u_heights",
+    [vt_samplerHeightRanges] = "u_heightRanges",
+    [vt_samplerEnvironment] = "u_environment",
+    [vt_samplerLighting] = "u_lighting",
+    [vt_samplerPaths] = "u_paths",
+    [vt_samplerEnds] = "u_ends",
+    [vt_samplerLights] = "u_lights",
+    [vt_samplerAsides] = "u_asides",
+    [vt_samplerRadiance] = "u_radiance",
+    [vt_samplerSum] = "u_sum",
+    [vt_samplerDepths] = "u_depths",
+    [vt_samplerHostColor] = "u_hostColor",
+    [vt_samplerHostDepth] = "u_hostDepth",
+};
 
 static int countLines(const char* text)
 {
@@ -162,8 +190,8 @@ vtResult vtProgram_Finish(vtProgram* program, const vtGL* gl, vtError* error)
         gl->UniformBlockBinding(program->name, block, VT_FRAME_BINDING);
     }
     gl->UseProgram(program->name);
-    for (int unit = 0; unit < VT_MAX_SAMPLERS && def->samplers[unit] != NULL; ++unit) {
-        gl->Uniform1i(gl->GetUniformLocation(program->name, def->samplers[unit]), unit);
+    for (int sampler = vt_samplerNone + 1; sampler < vt_samplerCount; ++sampler) { // -1 is passed over
+        gl->Uniform1i(gl->GetUniformLocation(program->name, samplerNames[sampler]), sampler);
     }
     for (int i = 0; i < VT_MAX_UNIFORMS && def->uniforms[i] != NULL; ++i) {
         program->uniforms[i] = gl->GetUniformLocation(program->name, def->uniforms[i]);

@@ -9,7 +9,6 @@ typedef struct vtChunk {
 } vtChunk;
 
 #define VT_MAX_CHUNKS 24
-#define VT_MAX_SAMPLERS 16
 #define VT_MAX_UNIFORMS 4
 
 /// What a program is made of: its chunks in order, after {version, precision, constants, frame}.
@@ -17,7 +16,6 @@ typedef struct vtProgramDef {
     const char* name;
     const vtChunk* vertex[VT_MAX_CHUNKS];   ///< NULL-terminated
     const vtChunk* fragment[VT_MAX_CHUNKS]; ///< NULL-terminated
-    const char* samplers[VT_MAX_SAMPLERS];  ///< NULL-terminated; sampler i reads texture unit i
     const char* uniforms[VT_MAX_UNIFORMS];  ///< NULL-terminated; what vtProgram.uniforms holds
 } vtProgramDef;
 

@@ -14,7 +14,7 @@ bool vtTexture_Resize(vtTexture* texture, const vtGL* gl, GLenum format, int wid
     vtTexture_Destroy(texture, gl);
     *texture = (vtTexture){0, target, format, width, height, layers, false};
     gl->GenTextures(1, &texture->name);
-    gl->ActiveTexture(GL_TEXTURE0);
+    gl->ActiveTexture(GL_TEXTURE0 + vt_samplerNone);
     gl->BindTexture(target, texture->name);
     if (layers > 0) {
         gl->TexStorage3D(target, 1, format, width, height, layers);
@@ -37,7 +37,7 @@ void vtTexture_SizeRecords(vtTexture* texture, const vtGL* gl, uint32_t count)
 void vtTexture_SetRecords(const vtTexture* texture, const vtGL* gl, uint32_t first, uint32_t count,
                           const uint32_t* words)
 {
-    vtTexture_Bind(texture, gl, 0);
+    vtTexture_Bind(texture, gl, vt_samplerNone);
     while (count > 0) { // the rest of a row, whole rows, the beginning of one
         const uint32_t column = first % VT_RECORDS_A_ROW, room = VT_RECORDS_A_ROW - column;
         const bool whole = column == 0 && count >= VT_RECORDS_A_ROW;
@@ -68,6 +68,7 @@ static size_t bytesPerTexel(GLenum format)
     case GL_SRGB8_ALPHA8:
     case GL_DEPTH_COMPONENT32F:
     case GL_R32F:
+    case GL_R32UI:
         return 4;
     case GL_RGB16F:
         return 6;
@@ -94,17 +95,18 @@ size_t vtTexture_Bytes(const vtTexture* texture)
     return texture->mipmapped ? bytes + bytes / 3 : bytes;
 }
 
-void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, int unit)
+void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, vtSampler sampler)
 {
-    gl->ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    gl->ActiveTexture(GL_TEXTURE0 + (GLenum)sampler);
     gl->BindTexture(texture->target, texture->name);
 }
 
-void vtBindTextures(const vtGL* gl, const vtTexture* const* textures, size_t count)
+void vtBindTextures(const vtGL* gl, const vtBinding* bindings, size_t count)
 {
-    for (size_t unit = 0; unit < count; ++unit) {
-        if (textures[unit] != NULL && textures[unit]->name != 0) {
-            vtTexture_Bind(textures[unit], gl, (int)unit);
+    for (size_t i = 0; i < count; ++i) {
+        const vtTexture* texture = bindings[i].texture;
+        if (texture != NULL && texture->name != 0) {
+            vtTexture_Bind(texture, gl, bindings[i].sampler);
         }
     }
 }

@@ -24,11 +24,47 @@ void vtTexture_SetRecords(const vtTexture* texture, const vtGL* gl, uint32_t fir
 void vtTexture_Destroy(vtTexture* texture, const vtGL* gl);
 size_t vtTexture_Bytes(const vtTexture* texture);
 
-/// Binds to a texture unit, for reading.
-void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, int unit);
+/// The textures that shaders read, by the names that program.c gives them. Each has the texture unit of its
+/// number in every program; GL has at least 32 of them.
+typedef enum vtSampler {
+    vt_samplerNone = 0, ///< where textures are made and filled
+    vt_samplerSurface,
+    vt_samplerInnerDistances,
+    vt_samplerLayerDepths,
+    vt_samplerLayerNormals,
+    vt_samplerMergedDepths,
+    vt_samplerPreviousDepth,
+    vt_samplerObjects,
+    vt_samplerRecords,
+    vt_samplerObjectTree,
+    vt_samplerAttributes,
+    vt_samplerImages,
+    vt_samplerHeights,
+    vt_samplerHeightRanges,
+    vt_samplerEnvironment,
+    vt_samplerLighting,
+    vt_samplerPaths,
+    vt_samplerEnds,
+    vt_samplerLights,
+    vt_samplerAsides,
+    vt_samplerRadiance,
+    vt_samplerSum,
+    vt_samplerDepths,
+    vt_samplerHostColor,
+    vt_samplerHostDepth,
+    vt_samplerCount,
+} vtSampler;
 
-/// The same of several, the first to unit 0; those that are NULL or not there are left out.
-void vtBindTextures(const vtGL* gl, const vtTexture* const* textures, size_t count);
+/// For a program to read, or with vt_samplerNone to be filled.
+void vtTexture_Bind(const vtTexture* texture, const vtGL* gl, vtSampler sampler);
+
+typedef struct vtBinding {
+    vtSampler sampler;
+    const vtTexture* texture;
+} vtBinding;
+
+/// The same of several; those that are NULL or not there are left out.
+void vtBindTextures(const vtGL* gl, const vtBinding* bindings, size_t count);
 
 #define VT_MAX_ATTACHMENTS 4
 

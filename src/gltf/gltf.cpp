@@ -8,54 +8,11 @@
 
 #include "gltf/gltf.h"
 
-#include <cassert>
-#include <cstdarg>
-#include <cstdio>
 #include <cstring>
+#include <new>
 
-namespace gltf
+namespace vtGltf
 {
-
-bool Loader::fail(vtResult why, const char* format, ...)
-{
-    char reason[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(reason, sizeof reason, format, arguments);
-    va_end(arguments);
-    result = vtFail(error, why, "model '%.200s': %s", def->name != nullptr ? def->name : "", reason);
-    return false;
-}
-
-bool Loader::has(const char* what, int index, size_t count)
-{
-    if (index >= 0 && (size_t)index < count) {
-        return true;
-    }
-    return fail(vt_errorFormat, "it refers to %s %d but has %zu of them" GLTF_DAMAGED, what, index, count);
-}
-
-std::string quotable(std::string text)
-{
-    for (char& c : text) {
-        c = (unsigned char)c < 32 ? ' ' : c;
-    }
-    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) {
-        text.pop_back();
-    }
-    return text.size() > 120 ? text.substr(0, 117) + "..." : text;
-}
-
-std::string label(int index, const std::string& name)
-{
-    const std::string text = quotable(name);
-    return std::to_string(index) + (text.empty() ? "" : ", " + text);
-}
-
-uint32_t readU32(const uint8_t* p)
-{
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
 
 /// Splits a .glb into its JSON and BIN chunks; BIN may be absent.
 static bool splitGlb(Loader& loader, Bytes file, Bytes* text, Bytes* bin)
@@ -116,20 +73,49 @@ static bool splitFile(Loader& loader, Bytes* text, Bytes* bin)
     return true;
 }
 
-} // namespace gltf
+static vtResult load(const vtModelDef* def, vtScene* scene, vtError* error)
+{
+    Loader loader = {def, scene, error};
+    Bytes text, bin;
+    std::vector<uint32_t> materialOf;
+    return splitFile(loader, &text, &bin) && parseDocument(loader, text, bin) && collectNodes(loader) &&
+                   makeMaterials(loader, &materialOf) && makeMeshes(loader, materialOf) &&
+                   makeObjects(loader) && makeCameras(loader)
+               ? vtSucceed(error)
+               : loader.result;
+}
+
+/// Nothing that is thrown leaves it.
+static vtResult loadSafely(const vtModelDef* def, vtScene* scene, vtError* error)
+{
+#ifdef __cpp_exceptions
+    const char* name = def->name != nullptr ? def->name : "";
+    try {
+        return load(def, scene, error);
+    } catch (const std::bad_alloc&) {
+        return vtFail(error, vt_errorMemory, "model '%.200s': out of memory; simplify it", name);
+    } catch (...) {
+        return vtFail(error, vt_errorFormat, "model '%.200s': it cannot be read" GLTF_DAMAGED, name);
+    }
+#else
+    return load(def, scene, error);
+#endif
+}
+
+} // namespace vtGltf
 
 extern "C" vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error)
 {
-    assert(def != nullptr && scene != nullptr && (def->bytes != nullptr || def->size == 0));
-    *scene = vtScene{};
-    gltf::Loader loader = {def, scene, error};
-    gltf::Bytes text, bin;
-    std::vector<uint32_t> materialOf;
-    if (!splitFile(loader, &text, &bin) || !parseDocument(loader, text, bin) || !collectNodes(loader) ||
-        !makeMaterials(loader, &materialOf) || !makeMeshes(loader, materialOf) || !makeObjects(loader) ||
-        !makeCameras(loader)) {
-        vtDestroyScene(scene);
-        return loader.result;
+    if (def == nullptr || scene == nullptr) {
+        return vtFailMissing(error, "vtLoadScene", def == nullptr ? "def" : "scene");
     }
-    return vtSucceed(error);
+    *scene = vtScene{};
+    if (def->bytes == nullptr && def->size > 0) {
+        return vtFailMissing(error, "vtLoadScene", "def->bytes");
+    }
+    const vtResult result = vtGltf::loadSafely(def, scene, error);
+    if (result != vt_ok) {
+        vtDestroyScene(scene);
+    }
+    return result;
 }

@@ -5,6 +5,7 @@
 
 extern "C" {
 #include "base/error.h"
+#include "base/memory.h"
 }
 
 // The same wherever tinygltf's types are seen; gltf_document.cpp alone holds its code.
@@ -13,14 +14,18 @@ extern "C" {
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
+// A program that links Vitrine may have another tinygltf and nlohmann-json, or the same with other switches:
+// ours get names of their own.
+#define tinygltf vtTinygltf
+#define nlohmann vtNlohmann
 #include <tiny_gltf.h>
 
-#include <cstdlib>
+#include <memory>
 
 /// How sentences end about what only whoever made the file can mend.
 #define GLTF_DAMAGED "; the file is damaged, export it again"
 
-namespace gltf
+namespace vtGltf
 {
 
 struct Bytes {
@@ -39,6 +44,15 @@ struct Stream {
 struct Matrix {
     double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 };
+
+/// Gives back what vtAllocate gave.
+struct Free {
+    void operator()(void* memory) const
+    {
+        vtFree(memory);
+    }
+};
+template <typename T> using Block = std::unique_ptr<T[], Free>;
 
 /// A checked primitive with triangles.
 struct Part {
@@ -91,7 +105,7 @@ struct Loader {
     /// An array of zeros for the scene, which frees it.
     template <typename T> bool allocate(size_t count, T** array)
     {
-        *array = (T*)calloc(count > 0 ? count : 1, sizeof(T));
+        *array = (T*)vtAllocateZeroed(count, sizeof(T));
         return *array != nullptr ||
                fail(vt_errorMemory, "no memory for %zu objects; simplify the scene", count);
     }
@@ -135,4 +149,4 @@ bool makeMeshes(Loader& loader, const std::vector<uint32_t>& materialOf);
 bool makeObjects(Loader& loader);
 bool makeCameras(Loader& loader);
 
-} // namespace gltf
+} // namespace vtGltf

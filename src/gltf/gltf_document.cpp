@@ -3,8 +3,9 @@
 #include <fstream> // tinygltf still names std::ofstream with TINYGLTF_NO_FS
 #include <sstream>
 #include <string>
+#include <vector>
 
-namespace tinygltf::std
+namespace vtTinygltf::std
 {
 using namespace ::std;
 
@@ -35,16 +36,80 @@ struct stringstream {
 };
 
 constexpr char endl[] = "\n"; // the real one is a stream's
-} // namespace tinygltf::std
+} // namespace vtTinygltf::std
 
-#define JSON_NOEXCEPTION
+#ifdef __cpp_exceptions
+namespace vtNlohmann::std
+{
+using namespace ::std;
+
+template <typename Json> bool hasChildren(const Json& value)
+{
+    return value.is_structured() && !value.empty();
+}
+
+template <typename Json> void eraseLast(Json& value)
+{
+    auto last = value.end();
+    value.erase(--last);
+}
+
+/// Destroys all below a value without a call to itself and without memory: it goes down by the last child, in
+/// whose place it keeps what it came from.
+template <typename Json> void dissolve(Json& value)
+{
+    Json above, here = ::std::move(value);
+    while (hasChildren(here) || !above.is_null()) {
+        if (!hasChildren(here)) {
+            here = ::std::move(above);
+            above = ::std::move(here.back());
+            eraseLast(here);
+        } else if (hasChildren(here.back())) {
+            Json below = ::std::move(here.back());
+            here.back() = ::std::move(above);
+            above = ::std::move(here);
+            here = ::std::move(below);
+        } else {
+            eraseLast(here);
+        }
+    }
+}
+
+/// What a JSON value's destructor, which must not fail, moves its children into, so that it need not call
+/// itself. Where memory is out they are dissolved.
+template <typename T> struct Yielding : ::std::vector<T> {
+    void reserve(size_t)
+    {
+    }
+    void push_back(T&& value)
+    {
+        try {
+            ::std::vector<T>::push_back(::std::move(value));
+        } catch (const bad_alloc&) {
+            dissolve(value);
+        }
+    }
+};
+
+/// nlohmann's vectors: only that one is of values of a class and names no allocator.
+template <typename T, typename... Allocator> struct VectorOf {
+    using type = ::std::vector<T, Allocator...>;
+};
+template <typename T> struct VectorOf<T> {
+    static constexpr bool yields = is_class_v<T> && !is_same_v<T, string>;
+    using type = conditional_t<yields, Yielding<T>, ::std::vector<T>>;
+};
+template <typename T, typename... Allocator> using vector = typename VectorOf<T, Allocator...>::type;
+} // namespace vtNlohmann::std
+#endif
+
 #define TINYGLTF_IMPLEMENTATION
 #include "gltf/gltf.h"
 
 #include <cmath>
 #include <cstdlib>
 
-namespace gltf
+namespace vtGltf
 {
 
 using Json = nlohmann::json;
@@ -200,10 +265,10 @@ static bool readExternal(Loader& loader, const char* what, const std::string& ur
         return loader.fail(vt_errorFile, "its %s '%s' cannot be read; put that file beside the model", what,
                            quotable(path).c_str());
     }
+    const Block<uint8_t> owned(contents);
     if (size > 0) {
         bytes->assign(contents, contents + size);
     }
-    free(contents);
     return true;
 }
 
@@ -305,4 +370,4 @@ bool parseDocument(Loader& loader, Bytes text, Bytes bin)
     return true;
 }
 
-} // namespace gltf
+} // namespace vtGltf

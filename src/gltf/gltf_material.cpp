@@ -14,7 +14,7 @@ extern "C" {
 #include "image/image.h"
 }
 
-namespace gltf
+namespace vtGltf
 {
 
 // -------------------------------------------------------------------------------------------- extensions
@@ -250,4 +250,4 @@ bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf)
     return true;
 }
 
-} // namespace gltf
+} // namespace vtGltf

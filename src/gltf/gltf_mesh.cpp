@@ -5,20 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
 
-namespace gltf
+namespace vtGltf
 {
-
-struct Free {
-    void operator()(void* memory) const
-    {
-        free(memory);
-    }
-};
-
-/// Numbers of a mesh to be: from malloc, since they may be many, and running short must give a sentence.
-template <typename T> using Block = std::unique_ptr<T[], Free>;
 
 /// The parts of one mesh to be, and what they have together.
 struct Group {
@@ -116,11 +105,11 @@ static bool makeMesh(Loader& loader, const Group& group, const std::string& name
     }
     const size_t vertexCount = (size_t)group.vertexCount, indexCount = (size_t)group.indexCount;
     const auto floats = [&](bool wanted, size_t components) {
-        return Block<float>(wanted ? (float*)malloc(vertexCount * components * sizeof(float)) : nullptr);
+        return Block<float>(wanted ? (float*)vtAllocate(vertexCount, components * sizeof(float)) : nullptr);
     };
     const Block<float> positions = floats(true, 3), normals = floats(group.hasNormals, 3),
                        texcoords = floats(group.hasTexcoords, 2), colors = floats(group.hasColors, 3);
-    const Block<uint32_t> indices((uint32_t*)malloc(indexCount * sizeof(uint32_t)));
+    const Block<uint32_t> indices((uint32_t*)vtAllocate(indexCount, sizeof(uint32_t)));
     if (!positions || !indices || (group.hasNormals && !normals) || (group.hasTexcoords && !texcoords) ||
         (group.hasColors && !colors)) {
         return loader.fail(vt_errorMemory, "no memory for %zu vertices and %zu indices; simplify it",
@@ -205,4 +194,4 @@ bool makeMeshes(Loader& loader, const std::vector<uint32_t>& materialOf)
     return true;
 }
 
-} // namespace gltf
+} // namespace vtGltf

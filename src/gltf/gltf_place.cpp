@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace gltf
+namespace vtGltf
 {
 
 static const double pi = 3.14159265358979323846;
@@ -167,4 +167,4 @@ bool makeCameras(Loader& loader)
     return true;
 }
 
-} // namespace gltf
+} // namespace vtGltf

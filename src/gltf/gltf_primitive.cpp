@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace gltf
+namespace vtGltf
 {
 
 // The file's numbers are at most 2^31 (gltf_document.cpp), strides 252: no sum overflows 64 bits.
@@ -218,4 +218,4 @@ bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, std::vec
     return true;
 }
 
-} // namespace gltf
+} // namespace vtGltf

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gltf
+namespace vtGltf
 {
 
 static const int maxNodeDepth = 1000; // far beyond any skeleton
@@ -181,4 +181,4 @@ bool collectNodes(Loader& loader)
            loader.fail(vt_errorGeometry, "its scene has no triangles; export it with its meshes, in a scene");
 }
 
-} // namespace gltf
+} // namespace vtGltf

@@ -4,15 +4,27 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "base/memory.h"
+#include "image/image_checks.h"
+#include "image/pfm.h"
 
 /// stb copies nothing to nowhere for an empty chunk of a PNG, which C11 leaves undefined.
 static inline void* copyBytes(void* to, const void* from, size_t size)
 {
     return size > 0 ? memcpy(to, from, size) : to;
+}
+
+/// Whether stb lacked memory since decoding began. As its own reason for a failure it lives with the thread:
+/// its macros know of no decoder, and its sentences speak of broken files then.
+static _Thread_local bool memoryWasOut;
+
+static void* note(void* memory)
+{
+    memoryWasOut = memoryWasOut || memory == NULL;
+    return memory;
 }
 
 // stb's code is not ours to keep free of warnings. Static, so that an embedder's own copy does not clash;
@@ -23,6 +35,12 @@ static inline void* copyBytes(void* to, const void* from, size_t size)
 #pragma GCC diagnostic ignored "-Wsign-compare"
 #pragma GCC diagnostic ignored "-Wshadow"
 #endif
+#define STBI_MALLOC(size) note(vtAllocate(1, size))
+#define STBI_REALLOC(memory, size) note(vtReallocate(memory, 1, size))
+#define STBI_FREE(memory) vtFree(memory)
+#define STBIW_MALLOC(size) vtAllocate(1, size)
+#define STBIW_REALLOC(memory, size) vtReallocate(memory, 1, size)
+#define STBIW_FREE(memory) vtFree(memory)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
@@ -90,7 +108,7 @@ vtResult vtLinearise(const uint8_t* samples, int channels, const char* name, int
         return vt_errorFormat;
     }
     const size_t count = (size_t)width * (size_t)height;
-    float* values = malloc(count * 3 * sizeof *values);
+    float* values = vtAllocate(count, 3 * sizeof *values);
     if (values == NULL) {
         return failMemory(name, width, height, error);
     }
@@ -109,6 +127,9 @@ vtResult vtLinearise(const uint8_t* samples, int channels, const char* name, int
 
 static vtResult failDecode(const char* name, vtError* error)
 {
+    if (memoryWasOut) {
+        return vtFail(error, vt_errorMemory, "no memory to decode picture '%s'; scale it down", name);
+    }
     const char* reason = stbi_failure_reason();
     return vtFail(error, vt_errorFormat,
                   "picture '%s' cannot be decoded as PNG, JPEG or Radiance HDR (%s); it is damaged or of "
@@ -153,7 +174,7 @@ static vtResult decodeSrgb(const uint8_t* bytes, int length, const char* name, f
         return failDecode(name, error);
     }
     const size_t count = (size_t)*width * (size_t)*height * 3;
-    *pixels = malloc(count * sizeof **pixels);
+    *pixels = vtAllocate(count, sizeof **pixels);
     for (size_t i = 0; *pixels != NULL && i < count; ++i) {
         (*pixels)[i] = vtSrgbToLinear((float)samples[i] / 65535.0f);
     }
@@ -174,6 +195,7 @@ vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, f
                       size == 0 ? "is empty" : "is larger than 2 GB");
     }
     const int length = (int)size;
+    memoryWasOut = false;
 
     // The header first, so that a picture that is too large costs no memory.
     int columns = 0, rows = 0, channels = 0;
@@ -206,7 +228,7 @@ vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, f
 #ifdef VT_HDR_ONLY
 static vtResult fillImage(const uint8_t* bytes, int length, const char* name, vtImage* image, vtError* error)
 {
-    image->bytes = malloc((size_t)length);
+    image->bytes = vtAllocate(1, (size_t)length);
     if (image->bytes == NULL) {
         return vtFail(error, vt_errorMemory, "no memory for the %d bytes of picture '%s'; scale it down",
                       length, name);
@@ -216,6 +238,23 @@ static vtResult fillImage(const uint8_t* bytes, int length, const char* name, vt
     return vtSucceed(error);
 }
 #else
+/// RGBA. Of 16 bits the upper 8, as stb takes them, which loses the picture where memory is out.
+static uint8_t* loadRgba(const uint8_t* bytes, int length, int* width, int* height)
+{
+    int channels = 0;
+    if (!stbi_is_16_bit_from_memory(bytes, length)) {
+        return stbi_load_from_memory(bytes, length, width, height, &channels, 4);
+    }
+    uint16_t* samples = stbi_load_16_from_memory(bytes, length, width, height, &channels, 4);
+    const size_t count = samples != NULL ? 4 * (size_t)*width * (size_t)*height : 0;
+    uint8_t* pixels = samples != NULL ? note(vtAllocate(count, 1)) : NULL;
+    for (size_t i = 0; pixels != NULL && i < count; ++i) {
+        pixels[i] = (uint8_t)(samples[i] >> 8);
+    }
+    stbi_image_free(samples);
+    return pixels;
+}
+
 static vtResult fillImage(const uint8_t* bytes, int length, const char* name, vtImage* image, vtError* error)
 {
     // The header first, so that a picture that is too large costs no memory.
@@ -226,7 +265,7 @@ static vtResult fillImage(const uint8_t* bytes, int length, const char* name, vt
     if (checkSides(name, width, height, error) != vt_ok) {
         return vt_errorFormat;
     }
-    image->pixels = stbi_load_from_memory(bytes, length, &width, &height, &channels, 4);
+    image->pixels = loadRgba(bytes, length, &width, &height);
     if (image->pixels == NULL) {
         return failDecode(name, error);
     }
@@ -249,6 +288,7 @@ vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage
                       "again as one of these",
                       name);
     }
+    memoryWasOut = false;
     return fillImage(bytes, (int)size, name, image, error);
 }
 
@@ -264,16 +304,6 @@ bool vtIsPicture(const void* bytes, size_t size)
         }
     }
     return vtIsPfm(bytes, size);
-}
-
-vtResult vtCheckHeightSides(const char* name, long width, long height, vtResult failure, vtError* error)
-{
-    if (width < 2 || height < 2 || width > VT_MAX_RELIEF_SIDE || height > VT_MAX_RELIEF_SIDE) {
-        return vtFail(error, failure,
-                      "relief '%.300s' is %ld x %ld samples, but a side must be 2 to %d; scale it", name,
-                      width, height, VT_MAX_RELIEF_SIDE);
-    }
-    return vtSucceed(error);
 }
 
 #ifdef VT_HDR_ONLY
@@ -298,7 +328,7 @@ static float* loadHeights(const uint8_t* bytes, int length, int* width, int* hei
     float* heights = NULL;
     if (bytes8 != NULL || bytes16 != NULL) {
         const size_t count = (size_t)*width * (size_t)*height;
-        heights = malloc(count * sizeof *heights);
+        heights = note(vtAllocate(count, sizeof *heights));
         for (size_t i = 0; heights != NULL && i < count; ++i) {
             heights[i] = bytes8 != NULL ? (float)bytes8[i] / 255.0f : (float)bytes16[i] / 65535.0f;
         }
@@ -339,6 +369,7 @@ vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float
                                        : "is no picture that can be read");
     }
     const int length = (int)size;
+    memoryWasOut = false;
     const bool isHdr = stbi_is_hdr_from_memory(bytes, length) != 0;
 #ifdef VT_HDR_ONLY
     if (!isHdr) {
@@ -361,16 +392,6 @@ vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float
 }
 
 // ------------------------------------------------------------------------------------------------ writing
-
-vtResult vtCheckWritten(int width, int height, vtError* error)
-{
-    if (width < 1 || height < 1 || width > VT_MAX_IMAGE_SIDE || height > VT_MAX_IMAGE_SIDE) {
-        return vtFail(error, vt_errorArgument,
-                      "a picture of %d x %d pixels cannot be written; a side must be 1 to %d", width, height,
-                      VT_MAX_IMAGE_SIDE);
-    }
-    return vt_ok;
-}
 
 vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
                      size_t* size, vtError* error)

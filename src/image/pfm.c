@@ -1,4 +1,6 @@
-// PFM: floats as they are, a text before them, the lowest row first.
+// A text, then the floats, the lowest row first.
+#include "image/pfm.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -6,7 +8,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "image/image.h"
+#include "image/image_checks.h"
 
 /// A float's four bytes, written out so that the machine's own byte order does not matter.
 static void storeLittleEndian(uint8_t* to, float value)
@@ -40,7 +42,7 @@ vtResult vtEncodePfm(const float* rgb, int width, int height, uint8_t** bytes, s
     char header[64];
     const size_t headerSize = (size_t)snprintf(header, sizeof header, "PF\n%d %d\n-1.0\n", width, height);
     const size_t rowFloats = (size_t)width * 3;
-    uint8_t* encoded = malloc(headerSize + rowFloats * (size_t)height * 4);
+    uint8_t* encoded = vtAllocate(headerSize + rowFloats * (size_t)height * 4, 1);
     if (encoded == NULL) {
         return vtFail(error, vt_errorMemory, "no memory to write a PFM of %d x %d pixels", width, height);
     }
@@ -131,7 +133,7 @@ static vtResult readPixels(const uint8_t* octets, size_t size, const char* name,
                       "truncated, so write it again",
                       name, size - header->offset, columns, rows, needed);
     }
-    float* values = malloc(columns * rows * (size_t)channels * sizeof *values);
+    float* values = vtAllocate(columns * rows, (size_t)channels * sizeof *values);
     if (values == NULL) {
         return vtFail(error, vt_errorMemory, "no memory for the %zu x %zu pixels of picture '%s'", columns,
                       rows, name);

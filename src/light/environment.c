@@ -2,7 +2,6 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/about.h"
@@ -52,7 +51,7 @@ static vec2 environmentCoordinates(vtVec3 d)
     return (vec2){0.5f + azimuth / (2.0f * VT_PI), 0.5f + atan2f(d.y, across) / VT_PI};
 }
 
-vtVec3 environmentChecker(vtVec3 d)
+vtVec3 vtEnvironmentChecker(vtVec3 d)
 {
     const vec2 uv = environmentCoordinates(d);
     const float column = mod(floorf(32.0f * uv.x), 32.0f);
@@ -76,7 +75,7 @@ static float environmentLamp(vtVec3 d, vtVec3 centre, float halfWidth, float hal
     return (1.0f - smoothstep(-softness, softness, x)) * (1.0f - smoothstep(-softness, softness, y));
 }
 
-vtVec3 environmentStudio(vtVec3 d)
+vtVec3 vtEnvironmentStudio(vtVec3 d)
 {
     const vtVec3 wall =
         mix(vec3(0.030f, 0.033f, 0.040f), vec3(0.006f, 0.007f, 0.009f), smoothstep(-0.1f, 0.9f, d.y));
@@ -111,7 +110,7 @@ static vtVec3 environmentAir(float height, float towardsSun)
     return vtScale(scattered, 0.75f + 0.35f * towardsSun * towardsSun);
 }
 
-vtVec3 environmentSky(vtVec3 d)
+vtVec3 vtEnvironmentSky(vtVec3 d)
 {
     const float towardsSun = vtDot(d, vec3(-0.5f, 0.5f, -0.70710678f));
     const vtVec3 haze = environmentAir(0.0f, towardsSun);
@@ -145,7 +144,7 @@ static vtVec3 texel(const vtEnvironment* environment, int column, int row)
     return vtMakeVec3(environment->pixels + ((size_t)row * (size_t)width + (size_t)column) * 3);
 }
 
-vtVec3 environmentImage(const vtEnvironment* environment, vtVec3 d)
+vtVec3 vtEnvironmentImage(const vtEnvironment* environment, vtVec3 d)
 {
     const vec2 uv = environmentCoordinates(d);
     const float x = uv.x * (float)environment->width - 0.5f; // texel centres lie at halves
@@ -183,8 +182,13 @@ const char* vtEnvironmentSummary(int index)
 
 vtResult vtCreateEnvironment(const char* name, vtEnvironment* environment, vtError* error)
 {
-    assert(name != NULL && environment != NULL);
+    if (environment == NULL) {
+        return vtFailMissing(error, "vtCreateEnvironment", "environment");
+    }
     *environment = (vtEnvironment){0};
+    if (name == NULL) {
+        return vtFailMissing(error, "vtCreateEnvironment", "name");
+    }
     for (int i = 0; i < builtInCount; ++i) {
         if (strcmp(name, builtIn[i].name) == 0) {
             environment->kind = (vtEnvironmentKind)i;
@@ -198,8 +202,13 @@ vtResult vtCreateEnvironment(const char* name, vtEnvironment* environment, vtErr
 vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtEnvironment* environment,
                            vtError* error)
 {
-    assert(environment != NULL);
+    if (environment == NULL) {
+        return vtFailMissing(error, "vtLoadEnvironment", "environment");
+    }
     *environment = (vtEnvironment){0};
+    if (bytes == NULL && size > 0) {
+        return vtFailMissing(error, "vtLoadEnvironment", "bytes");
+    }
     vtEnvironment loaded = {.kind = vt_environmentImage};
     const vtResult result =
         vtDecodeImageLinear(bytes, size, name, &loaded.pixels, &loaded.width, &loaded.height, error);
@@ -212,8 +221,13 @@ vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtE
 vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, const char* name,
                                   vtEnvironment* environment, vtError* error)
 {
-    assert(environment != NULL);
+    if (environment == NULL) {
+        return vtFailMissing(error, "vtCreateImageEnvironment", "environment");
+    }
     *environment = (vtEnvironment){0};
+    if (rgba == NULL) {
+        return vtFailMissing(error, "vtCreateImageEnvironment", "rgba");
+    }
     float* pixels = NULL;
     const vtResult result = vtLinearise(rgba, 4, name, width, height, &pixels, error);
     if (result == vt_ok) {
@@ -224,25 +238,28 @@ vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, co
 
 vtVec3 vtEnvironment_Sample(const vtEnvironment* environment, vtVec3 direction)
 {
-    assert(environment != NULL);
+    if (environment == NULL) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
     switch (environment->kind) {
     case vt_environmentChecker:
-        return environmentChecker(direction);
+        return vtEnvironmentChecker(direction);
     case vt_environmentStudio:
-        return environmentStudio(direction);
+        return vtEnvironmentStudio(direction);
     case vt_environmentSky:
-        return environmentSky(direction);
+        return vtEnvironmentSky(direction);
     case vt_environmentImage:
         break;
     }
-    assert(environment->pixels != NULL);
-    return environmentImage(environment, direction);
+    const bool isPicture = environment->kind == vt_environmentImage && environment->pixels != NULL &&
+                           environment->width > 0 && environment->height > 0;
+    return isPicture ? vtEnvironmentImage(environment, direction) : vec3(0.0f, 0.0f, 0.0f);
 }
 
 void vtDestroyEnvironment(vtEnvironment* environment)
 {
     if (environment != NULL) {
-        free(environment->pixels);
+        vtFree(environment->pixels);
         *environment = (vtEnvironment){0};
     }
 }

@@ -11,10 +11,10 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/error.h"
 #include "base/math.h"
+#include "base/memory.h"
 
 enum {
     side = VT_LIGHTING_SIDE, // of the environment as sampled, and of the finest level
@@ -299,10 +299,10 @@ vtResult vtCreateLighting(const vtEnvironment* environment, vtLighting* lighting
 {
     assert(environment != NULL && lighting != NULL);
     *lighting = (vtLighting){.environment = environment};
-    vtVec3* rip = calloc((size_t)stride * side, sizeof *rip);
-    lighting->specular = calloc((size_t)side * side, sizeof *lighting->specular);
+    vtVec3* rip = vtAllocateZeroed((size_t)stride * side, sizeof *rip);
+    lighting->specular = vtAllocateZeroed((size_t)side * side, sizeof *lighting->specular);
     if (rip == NULL || lighting->specular == NULL) {
-        free(rip);
+        vtFree(rip);
         vtDestroyLighting(lighting);
         return vtFail(error, vt_errorMemory, "lighting: out of memory");
     }
@@ -311,12 +311,12 @@ vtResult vtCreateLighting(const vtEnvironment* environment, vtLighting* lighting
     for (int level = 0; level < VT_LIGHTING_LEVELS; ++level) {
         blurLevel(rip, level, lighting->specular);
     }
-    free(rip);
+    vtFree(rip);
     return vtSucceed(error);
 }
 
 void vtDestroyLighting(vtLighting* lighting)
 {
-    free(lighting->specular);
+    vtFree(lighting->specular);
     *lighting = (vtLighting){0};
 }

@@ -6,12 +6,12 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/math.h"
-#include "image/image.h"
+#include "base/memory.h"
+#include "image/image_checks.h"
 
 /// The relief's longer side.
 static const float longerSide = 2.0f;
@@ -106,7 +106,7 @@ static bool smooth(vtHeightField* field, float deviation)
     for (int k = 0; k <= 2 * reach; ++k) {
         weights[k] /= total;
     }
-    float* between = malloc(count * sizeof *between);
+    float* between = vtAllocate(count, sizeof *between);
     if (between == NULL) {
         return false;
     }
@@ -118,7 +118,7 @@ static bool smooth(vtHeightField* field, float deviation)
     for (int row = 0; row < field->height; ++row) {
         blurAcross(between, field->z + (size_t)row * width, field, row, weights, reach);
     }
-    free(between);
+    vtFree(between);
     return true;
 }
 
@@ -178,7 +178,7 @@ static bool buildRanges(vtHeightField* field)
     } while (vtHeightField_TileColumns(field, level) > 1 || vtHeightField_TileRows(field, level) > 1);
     field->levelCount = level;
     field->starts[level + 1] = count;
-    field->ranges = malloc(count * sizeof *field->ranges);
+    field->ranges = vtAllocate(count, sizeof *field->ranges);
     for (int i = 1; i <= level && field->ranges != NULL; ++i) {
         fillLevel(field, i);
     }
@@ -194,7 +194,7 @@ static bool fillField(vtHeightField* field, const vtReliefDef* def)
     field->cell = longerSide / (float)(longer - 1);
     field->left = -0.5f * (float)(def->width - 1) * field->cell;
     field->bottom = -0.5f * (float)(def->height - 1) * field->cell;
-    field->z = malloc(count * sizeof *field->z);
+    field->z = vtAllocate(count, sizeof *field->z);
     if (field->z == NULL) {
         return false;
     }
@@ -219,14 +219,19 @@ static bool fillField(vtHeightField* field, const vtReliefDef* def)
 
 vtResult vtCreateRelief(const vtReliefDef* def, const char* name, vtMesh* mesh, vtError* error)
 {
-    assert(def != NULL && def->heights != NULL && mesh != NULL);
+    if (mesh == NULL) {
+        return vtFailMissing(error, "vtCreateRelief", "mesh");
+    }
     *mesh = (vtMesh){0};
+    if (def == NULL || def->heights == NULL) {
+        return vtFailMissing(error, "vtCreateRelief", def == NULL ? "def" : "def->heights");
+    }
     name = name != NULL ? name : "unnamed";
     vtResult result = checkDef(def, name, error);
     if (result != vt_ok) {
         return result;
     }
-    vtHeightField* field = calloc(1, sizeof *field);
+    vtHeightField* field = vtAllocateZeroed(1, sizeof *field);
     if (field == NULL || !fillField(field, def)) {
         vtDestroyHeightField(field);
         return vtFail(error, vt_errorMemory,
@@ -237,15 +242,16 @@ vtResult vtCreateRelief(const vtReliefDef* def, const char* name, vtMesh* mesh, 
     mesh->heights = field;
     mesh->boundsMin = (vtVec3){field->left, field->bottom, field->back};
     mesh->boundsMax = (vtVec3){last.x, last.y, field->high};
+    mesh->volume = fabs(vtHeightField_Volume(field));
     return vtSucceed(error);
 }
 
 void vtDestroyHeightField(vtHeightField* field)
 {
     if (field != NULL) {
-        free(field->z);
-        free(field->ranges);
-        free(field);
+        vtFree(field->z);
+        vtFree(field->ranges);
+        vtFree(field);
     }
 }
 

@@ -2,33 +2,10 @@
 // four children a node, the records.
 #include "mesh/hierarchy.h"
 
-#include <assert.h>
-#include <stdlib.h>
-
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/octahedral.h"
 #include "mesh/hierarchy_build.h"
-
-static void* note(vtHierarchyBuild* build, void* memory)
-{
-    if (memory == NULL && build->failure == vt_ok) {
-        build->failure = vt_errorMemory;
-    }
-    return memory;
-}
-
-void* vtHierarchyBuild_Allocate(vtHierarchyBuild* build, size_t count, size_t size)
-{
-    count = count > 0 ? count : 1;
-    return note(build, count <= SIZE_MAX / size ? malloc(count * size) : NULL);
-}
-
-void* vtHierarchyBuild_AllocateZeros(vtHierarchyBuild* build, size_t count, size_t size)
-{
-    return note(build, calloc(count > 0 ? count : 1, size));
-}
-
-// ------------------------------------------------------------------------------------------------ records
 
 /// Brings the triangles' normals into the items' order, so that those below a node lie together.
 bool vtPhase_Normals(vtHierarchyBuild* build, int64_t* work)
@@ -168,7 +145,7 @@ enum { phaseCount = sizeof phases / sizeof *phases };
 
 vtHierarchyBuild* vtBeginHierarchy(const vtMesh* mesh, vtError* error)
 {
-    vtHierarchyBuild* build = calloc(1, sizeof *build);
+    vtHierarchyBuild* build = vtAllocateZeroed(1, sizeof *build);
     if (build == NULL) {
         vtFail(error, vt_errorMemory, "hierarchy: out of memory for %u triangles", mesh->indexCount / 3);
         return NULL;
@@ -238,10 +215,10 @@ void vtAbandonHierarchy(vtHierarchyBuild* build)
                    build->left,  build->welded, build->slots,   build->pairs,  build->items,
                    build->nodes, build->ways,   build->normals, build->wide,   build->packed};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-        free(all[i]);
+        vtFree(all[i]);
     }
     vtDestroyHierarchy(&build->out);
-    free(build);
+    vtFree(build);
 }
 
 vtResult vtCreateHierarchy(const vtMesh* mesh, vtHierarchy* hierarchy, vtError* error)
@@ -253,7 +230,7 @@ vtResult vtCreateHierarchy(const vtMesh* mesh, vtHierarchy* hierarchy, vtError* 
 
 void vtDestroyHierarchy(vtHierarchy* hierarchy)
 {
-    free(hierarchy->records);
-    free(hierarchy->corners);
+    vtFree(hierarchy->records);
+    vtFree(hierarchy->corners);
     *hierarchy = (vtHierarchy){0};
 }

@@ -128,7 +128,7 @@ static inline uint32_t vtAdvance(vtHierarchyBuild* build, uint32_t limit, uint32
     return first;
 }
 
-/// malloc of an array that notes the failure; also of nothing something is given.
+/// An array; the failure is noted.
 void* vtHierarchyBuild_Allocate(vtHierarchyBuild* build, size_t count, size_t size);
 /// The same, all zeros.
 void* vtHierarchyBuild_AllocateZeros(vtHierarchyBuild* build, size_t count, size_t size);

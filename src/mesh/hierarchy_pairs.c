@@ -3,7 +3,6 @@
 // A triangle, in the order of the mesh, takes the neighbour that is still free over its longest side, since a
 // compact pair has its diagonal there. In the first round neighbours share vertices by number; triangles left
 // over that have an open side get a second round, in which vertices equal in all bits count as one.
-#include <stdlib.h>
 
 #include "mesh/hierarchy_build.h"
 #include "mesh/weld.h"
@@ -127,7 +126,7 @@ bool vtPhase_Weld(vtHierarchyBuild* build, int64_t* work)
         }
     }
     if (build->cursor == build->leftCount) {
-        free(build->slots);
+        vtFree(build->slots);
         build->slots = NULL;
     }
     return build->cursor == build->leftCount;
@@ -140,8 +139,8 @@ bool vtPhase_Count(vtHierarchyBuild* build, int64_t* work)
 {
     const uint32_t count = triangleCount(build);
     if (build->cursor == 0) {
-        free(build->starts);
-        free(build->sides);
+        vtFree(build->starts);
+        vtFree(build->sides);
         build->starts = vtHierarchyBuild_AllocateZeros(build, (size_t)build->mesh->vertexCount + 1,
                                                        sizeof *build->starts);
         build->sides = vtHierarchyBuild_Allocate(build, count, 3 * sizeof *build->sides);
@@ -323,7 +322,7 @@ static void freeMates(vtHierarchyBuild* build)
     void* all[] = {build->faces, build->mates, build->others, build->starts,
                    build->sides, build->left,  build->welded};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-        free(all[i]);
+        vtFree(all[i]);
     }
     build->faces = NULL;
     build->mates = NULL;

@@ -3,7 +3,6 @@
 //   Hierarchies. ACM Transactions on Graphics 26(1), 2007: boxes follow bottom up, the tree stays.
 // Departure: cones of normals follow, too, merged from the children's: less tight than those of the builder,
 // which looks at all normals below.
-#include <stdlib.h>
 
 #include "base/error.h"
 #include "base/octahedral.h"
@@ -137,11 +136,11 @@ static void refitNode(const Refit* refit, uint32_t number)
 vtResult vtHierarchy_Refit(vtHierarchy* hierarchy, const vtMesh* mesh, vtError* error)
 {
     Refit refit = {.hierarchy = hierarchy, .positions = mesh->positions};
-    refit.bounds = malloc(hierarchy->recordCount * sizeof *refit.bounds);
-    refit.normals = malloc(mesh->vertexCount * sizeof *refit.normals + 1);
+    refit.bounds = vtAllocate(hierarchy->recordCount, sizeof *refit.bounds);
+    refit.normals = vtAllocate(mesh->vertexCount, sizeof *refit.normals);
     if (refit.bounds == NULL || refit.normals == NULL) {
-        free(refit.bounds);
-        free(refit.normals);
+        vtFree(refit.bounds);
+        vtFree(refit.normals);
         return vtFail(error, vt_errorMemory, "hierarchy: out of memory for %u triangles",
                       mesh->indexCount / 3);
     }
@@ -161,8 +160,8 @@ vtResult vtHierarchy_Refit(vtHierarchy* hierarchy, const vtMesh* mesh, vtError* 
     const double area = (double)vtBox_HalfArea(&refit.bounds[0].box);
     hierarchy->refitCost = area > 0.0 ? (float)(sum / area) : hierarchy->cost;
     vtHierarchy_SetGrid(hierarchy, &refit.grid);
-    free(refit.bounds);
-    free(refit.normals);
+    vtFree(refit.bounds);
+    vtFree(refit.normals);
     return vtSucceed(error);
 }
 

@@ -1,6 +1,5 @@
 // Distances from vertices inwards, for technique `wyman` (Wyman 2005, section 3.1: d_N). Natively Embree
 // gives the same numbers faster.
-#include <stdlib.h>
 
 #include "base/error.h"
 #include "base/math.h"
@@ -8,15 +7,18 @@
 
 vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error)
 {
+    if (mesh == NULL) {
+        return vtFailMissing(error, "vtComputeInnerDistances", "mesh");
+    }
     if (mesh->innerDistances != NULL) {
         return vtSucceed(error);
     }
     if (mesh->indexCount == 0) {
         return vtFail(
             error, vt_errorGeometry,
-            "inner distances: the mesh is a relief without triangles; call vtTriangulateRelief first");
+            "inner distances: the mesh has no triangles; if it is a relief, call vtTriangulateRelief first");
     }
-    float* distances = malloc(mesh->vertexCount * sizeof *distances);
+    float* distances = vtAllocate(mesh->vertexCount, sizeof *distances);
     if (distances == NULL) {
         return vtFail(error, vt_errorMemory, "inner distances: out of memory for %u triangles",
                       mesh->indexCount / 3);
@@ -24,7 +26,7 @@ vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error)
     vtHierarchy hierarchy;
     const vtResult result = vtCreateHierarchy(mesh, &hierarchy, error);
     if (result != vt_ok) {
-        free(distances);
+        vtFree(distances);
         return result;
     }
     // The vertex's own triangles lie at distance zero.

@@ -8,12 +8,11 @@
 // Geometry is computed in double: the products of two finite floats neither overflow nor vanish there.
 #include "base/error.h"
 #include "base/math.h"
+#include "base/memory.h"
 #include "mesh/height_field.h"
 #include "mesh/hierarchy.h"
 #include "mesh/weld.h"
 
-#include <assert.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct Double3 {
@@ -82,11 +81,71 @@ static vtResult checkCounts(const vtMeshDef* def, const char* name, vtError* err
     return vt_ok;
 }
 
-static vtResult checkVectors(const float* vectors, uint32_t count, const char* kind, const char* name,
+/// Numbers of vertices as the caller has them.
+typedef struct Numbers {
+    const float* first; ///< NULL: none
+    size_t components;
+    uint32_t given; ///< the stride as the caller says it
+} Numbers;
+
+static size_t strideOf(const Numbers* numbers)
+{
+    return numbers->given != 0 ? numbers->given : numbers->components * sizeof(float);
+}
+
+static const float* numbersAt(const Numbers* numbers, size_t vertex)
+{
+    return (const float*)((const char*)numbers->first + vertex * strideOf(numbers));
+}
+
+static Numbers positionsOf(const vtMeshDef* def)
+{
+    return (Numbers){def->positions, 3, def->positionStride};
+}
+
+static Numbers normalsOf(const vtMeshDef* def)
+{
+    return (Numbers){def->normals, 3, def->normalStride};
+}
+
+static Numbers texcoordsOf(const vtMeshDef* def)
+{
+    return (Numbers){def->texcoords, 2, def->texcoordStride};
+}
+
+static Numbers colorsOf(const vtMeshDef* def)
+{
+    return (Numbers){def->colors, 3, def->colorStride};
+}
+
+static uint32_t indexAt(const vtMeshDef* def, size_t i)
+{
+    return def->indices != NULL ? def->indices[i] : def->indices16 != NULL ? def->indices16[i] : (uint32_t)i;
+}
+
+static vtResult checkLayout(const vtMeshDef* def, const char* name, vtError* error)
+{
+    const Numbers all[] = {positionsOf(def), normalsOf(def), texcoordsOf(def), colorsOf(def)};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        const size_t stride = strideOf(&all[i]), least = all[i].components * sizeof(float);
+        if (stride < least || stride % sizeof(float) != 0) {
+            return vtFail(error, vt_errorArgument,
+                          "mesh '%.300s': a stride is %zu bytes; it must be a multiple of 4 and %zu or more",
+                          name, stride, least);
+        }
+    }
+    if (def->indices != NULL && def->indices16 != NULL) {
+        return vtFail(error, vt_errorArgument,
+                      "mesh '%.300s': it has indices of 32 and of 16 bits; give one kind", name);
+    }
+    return vt_ok;
+}
+
+static vtResult checkVectors(Numbers vectors, uint32_t count, const char* kind, const char* name,
                              vtError* error)
 {
     for (size_t i = 0; i < count; ++i) {
-        const float* v = vectors + 3 * i;
+        const float* v = numbersAt(&vectors, i);
         if (!isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2])) {
             return vtFail(
                 error, vt_errorGeometry,
@@ -99,7 +158,7 @@ static vtResult checkVectors(const float* vectors, uint32_t count, const char* k
 
 static vtResult checkIndices(const vtMeshDef* def, const char* name, vtError* error)
 {
-    if (def->indices == NULL) {
+    if (def->indices == NULL && def->indices16 == NULL) {
         if (def->indexCount > def->vertexCount) {
             return vtFail(
                 error, vt_errorGeometry,
@@ -110,11 +169,11 @@ static vtResult checkIndices(const vtMeshDef* def, const char* name, vtError* er
         return vt_ok;
     }
     for (size_t i = 0; i < def->indexCount; ++i) {
-        if (def->indices[i] >= def->vertexCount) {
+        if (indexAt(def, i) >= def->vertexCount) {
             return vtFail(error, vt_errorGeometry,
                           "mesh '%.300s': index %zu (triangle %zu) is %u, but there are only %u vertices; "
                           "export it again",
-                          name, i, i / 3, (unsigned)def->indices[i], (unsigned)def->vertexCount);
+                          name, i, i / 3, (unsigned)indexAt(def, i), (unsigned)def->vertexCount);
         }
     }
     return vt_ok;
@@ -179,7 +238,7 @@ static void addWeighted(const Triangle* triangle, Double3* sums)
 /// Computes every normal that is zero.
 static bool completeNormals(vtMesh* mesh, const uint32_t* welded)
 {
-    Double3* sums = calloc(mesh->vertexCount, sizeof *sums);
+    Double3* sums = vtAllocateZeroed(mesh->vertexCount, sizeof *sums);
     if (sums == NULL) {
         return false;
     }
@@ -196,7 +255,7 @@ static bool completeNormals(vtMesh* mesh, const uint32_t* welded)
             writeUnit(sums[welded[i]], 1e-9, normal);
         }
     }
-    free(sums);
+    vtFree(sums);
     // Where the sides cancelled, each side keeps the normal of a triangle of its own.
     for (size_t i = 0; i < mesh->indexCount; ++i) {
         float* normal = mesh->normals + 3 * (size_t)mesh->indices[i];
@@ -237,7 +296,7 @@ static void addEdge(EdgeSlot* slots, size_t capacity, uint32_t from, uint32_t to
 static bool countOpenEdges(vtMesh* mesh, const uint32_t* welded)
 {
     size_t capacity = vtTableCapacity(mesh->indexCount); // at most one edge for each index
-    EdgeSlot* slots = capacity == 0 ? NULL : calloc(capacity, sizeof *slots);
+    EdgeSlot* slots = capacity == 0 ? NULL : vtAllocateZeroed(capacity, sizeof *slots);
     if (slots == NULL) {
         return false;
     }
@@ -253,7 +312,7 @@ static bool countOpenEdges(vtMesh* mesh, const uint32_t* welded)
         int64_t balance = slots[slot].balance;
         mesh->openEdgeCount += (uint32_t)(balance < 0 ? -balance : balance);
     }
-    free(slots);
+    vtFree(slots);
     return true;
 }
 
@@ -281,39 +340,57 @@ static void findBounds(vtMesh* mesh)
     mesh->boundsMax = vtMakeVec3(high);
 }
 
+/// Sums of many small parts, so in double.
+static void findVolume(vtMesh* mesh)
+{
+    const vtVec3 origin = vtMakeVec3(mesh->positions);
+    double sum = 0.0;
+    for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
+        const vtVec3 a = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), origin);
+        const vtVec3 b = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 1]), origin);
+        const vtVec3 c = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 2]), origin);
+        sum += (double)vtDot(vtCross(a, b), c);
+    }
+    mesh->volume = fabs(sum) / 6.0;
+}
+
 // ------------------------------------------------------------------------------------------------- calls
 
-/// NULL stays NULL.
-static bool copyNumbers(const float* from, size_t count, float** to)
+/// Side by side. None stay NULL.
+static bool copyNumbers(Numbers from, uint32_t count, float** to)
 {
-    *to = from != NULL ? calloc(count, sizeof **to) : NULL;
-    if (*to != NULL) {
-        memcpy(*to, from, count * sizeof **to);
+    const size_t size = from.components * sizeof(float);
+    *to = from.first != NULL ? vtAllocate(count, size) : NULL;
+    if (*to != NULL && strideOf(&from) == size) {
+        memcpy(*to, from.first, count * size);
+    } else if (*to != NULL) {
+        for (size_t i = 0; i < count; ++i) {
+            memcpy(*to + from.components * i, numbersAt(&from, i), size);
+        }
     }
-    return from == NULL || *to != NULL;
+    return from.first == NULL || *to != NULL;
 }
 
 static bool copyTriangles(const vtMeshDef* def, vtMesh* mesh)
 {
-    // calloc multiplies with a check for overflow, which matters where size_t has 32 bits.
-    mesh->positions = calloc(def->vertexCount, 3 * sizeof(float));
-    mesh->normals = calloc(def->vertexCount, 3 * sizeof(float));
-    mesh->indices = calloc(def->indexCount, sizeof(uint32_t));
-    if (mesh->positions == NULL || mesh->normals == NULL || mesh->indices == NULL) {
+    const uint32_t count = def->vertexCount;
+    if (!copyNumbers(positionsOf(def), count, &mesh->positions) ||
+        !copyNumbers(normalsOf(def), count, &mesh->normals) ||
+        !copyNumbers(texcoordsOf(def), count, &mesh->texcoords) ||
+        !copyNumbers(colorsOf(def), count, &mesh->colors)) {
         return false;
     }
-    mesh->vertexCount = def->vertexCount;
+    if (mesh->normals == NULL) {
+        mesh->normals = vtAllocateZeroed(count, 3 * sizeof(float));
+    }
+    mesh->indices = vtAllocate(def->indexCount, sizeof *mesh->indices);
+    if (mesh->normals == NULL || mesh->indices == NULL) {
+        return false;
+    }
+    mesh->vertexCount = count;
     mesh->indexCount = def->indexCount;
-    if (!copyNumbers(def->texcoords, 2 * (size_t)def->vertexCount, &mesh->texcoords) ||
-        !copyNumbers(def->colors, 3 * (size_t)def->vertexCount, &mesh->colors)) {
-        return false;
-    }
-    memcpy(mesh->positions, def->positions, def->vertexCount * 3 * sizeof(float));
-    if (def->normals != NULL) {
-        memcpy(mesh->normals, def->normals, def->vertexCount * 3 * sizeof(float));
-    }
     for (uint32_t i = 0; i < def->indexCount; ++i) {
-        mesh->indices[i] = def->indices == NULL ? i : def->indices[i];
+        mesh->indices[i] = indexAt(def, i);
     }
     return true;
 }
@@ -324,30 +401,38 @@ static bool buildMesh(const vtMeshDef* def, vtMesh* mesh)
     if (!copyTriangles(def, mesh)) {
         return false;
     }
-    uint32_t* welded = calloc(mesh->vertexCount, sizeof *welded);
+    uint32_t* welded = vtAllocateZeroed(mesh->vertexCount, sizeof *welded);
     bool built = welded != NULL && vtWeldPositions(mesh, welded) && countOpenEdges(mesh, welded);
     if (built) {
         countDegenerate(mesh, welded);
         findBounds(mesh);
+        findVolume(mesh);
         mesh->normalsComputed = !normalizeGiven(mesh);
         built = !mesh->normalsComputed || completeNormals(mesh, welded);
     }
-    free(welded);
+    vtFree(welded);
     return built;
 }
 
 vtResult vtCreateMesh(const vtMeshDef* def, const char* name, vtMesh* mesh, vtError* error)
 {
-    assert(def != NULL && mesh != NULL);
-    assert(def->vertexCount == 0 || def->positions != NULL);
+    if (mesh == NULL) {
+        return vtFailMissing(error, "vtCreateMesh", "mesh");
+    }
     *mesh = (vtMesh){0};
+    if (def == NULL || (def->positions == NULL && def->vertexCount > 0)) {
+        return vtFailMissing(error, "vtCreateMesh", def == NULL ? "def" : "def->positions");
+    }
     name = name != NULL ? name : "unnamed";
     vtResult result = checkCounts(def, name, error);
     if (result == vt_ok) {
-        result = checkVectors(def->positions, def->vertexCount, "position", name, error);
+        result = checkLayout(def, name, error);
+    }
+    if (result == vt_ok) {
+        result = checkVectors(positionsOf(def), def->vertexCount, "position", name, error);
     }
     if (result == vt_ok && def->normals != NULL) {
-        result = checkVectors(def->normals, def->vertexCount, "normal", name, error);
+        result = checkVectors(normalsOf(def), def->vertexCount, "normal", name, error);
     }
     if (result == vt_ok) {
         result = checkIndices(def, name, error);
@@ -383,10 +468,10 @@ static bool updateNormals(vtMesh* mesh, const float* normals)
         memset(mesh->normals, 0, count * sizeof *normals);
     }
     mesh->normalsComputed = !normalizeGiven(mesh);
-    uint32_t* welded = mesh->normalsComputed ? calloc(mesh->vertexCount, sizeof *welded) : NULL;
+    uint32_t* welded = mesh->normalsComputed ? vtAllocateZeroed(mesh->vertexCount, sizeof *welded) : NULL;
     const bool ready = !mesh->normalsComputed ||
                        (welded != NULL && vtWeldPositions(mesh, welded) && completeNormals(mesh, welded));
-    free(welded);
+    vtFree(welded);
     return ready;
 }
 
@@ -411,6 +496,9 @@ static vtResult updateHierarchy(vtMesh* mesh, vtError* error)
 
 vtResult vtMesh_Update(vtMesh* mesh, const float* positions, const float* normals, vtError* error)
 {
+    if (mesh == NULL || positions == NULL) {
+        return vtFailMissing(error, "vtMesh_Update", mesh == NULL ? "mesh" : "positions");
+    }
     const size_t count = 3 * (size_t)mesh->vertexCount;
     if (mesh->indexCount == 0) {
         return vtFail(error, vt_errorGeometry, "mesh: it has no triangles whose vertices could move");
@@ -420,7 +508,8 @@ vtResult vtMesh_Update(vtMesh* mesh, const float* positions, const float* normal
     }
     memcpy(mesh->positions, positions, count * sizeof *positions);
     findBounds(mesh);
-    free(mesh->innerDistances);
+    findVolume(mesh);
+    vtFree(mesh->innerDistances);
     mesh->innerDistances = NULL;
     vtDestroyHeightField(mesh->heights);
     mesh->heights = NULL;
@@ -433,17 +522,19 @@ vtResult vtMesh_Update(vtMesh* mesh, const float* positions, const float* normal
 
 void vtDestroyMesh(vtMesh* mesh)
 {
-    assert(mesh != NULL);
-    free(mesh->positions);
-    free(mesh->normals);
-    free(mesh->indices);
-    free(mesh->innerDistances);
-    free(mesh->texcoords);
-    free(mesh->colors);
+    if (mesh == NULL) {
+        return;
+    }
+    vtFree(mesh->positions);
+    vtFree(mesh->normals);
+    vtFree(mesh->indices);
+    vtFree(mesh->innerDistances);
+    vtFree(mesh->texcoords);
+    vtFree(mesh->colors);
     vtDestroyHeightField(mesh->heights);
     if (mesh->hierarchy != NULL) {
         vtDestroyHierarchy(mesh->hierarchy);
-        free(mesh->hierarchy);
+        vtFree(mesh->hierarchy);
     }
     *mesh = (vtMesh){0};
 }

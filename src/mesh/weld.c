@@ -1,7 +1,8 @@
 #include "mesh/weld.h"
 
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/memory.h"
 
 uint64_t vtMixBits(uint64_t key)
 {
@@ -32,7 +33,8 @@ static uint64_t hashPosition(const float* position)
 bool vtWeldPositions(const vtMesh* mesh, uint32_t* welded)
 {
     size_t capacity = vtTableCapacity(mesh->vertexCount);
-    uint32_t* slots = capacity == 0 ? NULL : calloc(capacity, sizeof *slots); // vertex + 1; 0: unused
+    uint32_t* slots =
+        capacity == 0 ? NULL : vtAllocateZeroed(capacity, sizeof *slots); // vertex + 1; 0: unused
     if (slots == NULL) {
         return false;
     }
@@ -51,6 +53,6 @@ bool vtWeldPositions(const vtMesh* mesh, uint32_t* welded)
         }
         welded[vertex] = slots[slot] - 1;
     }
-    free(slots);
+    vtFree(slots);
     return true;
 }

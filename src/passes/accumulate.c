@@ -7,14 +7,12 @@ static const vtProgramDef addDef = {
     .name = "add sample",
     .vertex = {&vtChunk_screen_vert},
     .fragment = {&vtChunk_add_sample_frag},
-    .samplers = {"u_radiance", "u_sum"},
 };
 
 static const vtProgramDef showDef = {
     .name = "show samples",
     .vertex = {&vtChunk_screen_vert},
     .fragment = {&vtChunk_srgb, &vtChunk_show_samples_frag},
-    .samplers = {"u_sum"},
 };
 
 void vtAccumulatePass_Start(vtAccumulatePass* pass, const vtGL* gl, vtProgramList* programs)
@@ -49,17 +47,18 @@ void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTextur
     ++pass->count;
     vtBindFramebuffer(gl, pass->framebuffers[pass->latest], before->width, before->height);
     gl->UseProgram(pass->addProgram.name);
-    vtTexture_Bind(radiance, gl, 0);
-    vtTexture_Bind(before, gl, 1);
+    vtTexture_Bind(radiance, gl, vt_samplerRadiance);
+    vtTexture_Bind(before, gl, vt_samplerSum);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer)
+void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer, int x, int y)
 {
     const vtTexture* sum = &pass->sums[pass->latest];
-    vtBindFramebuffer(gl, framebuffer, sum->width, sum->height);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl->Viewport(x, y, sum->width, sum->height);
     gl->UseProgram(pass->showProgram.name);
-    vtTexture_Bind(sum, gl, 0);
+    vtTexture_Bind(sum, gl, vt_samplerSum);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -18,6 +18,6 @@ vtResult vtAccumulatePass_Resize(vtAccumulatePass* pass, const vtGL* gl, int wid
                                  vtError* error);
 /// Adds the light of one sample.
 void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* radiance);
-void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer);
+void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer, int x, int y);
 void vtAccumulatePass_Destroy(vtAccumulatePass* pass, const vtGL* gl);
 size_t vtAccumulatePass_Bytes(const vtAccumulatePass* pass);

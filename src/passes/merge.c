@@ -7,7 +7,6 @@ static const vtProgramDef programDef = {
     .name = "merge",
     .vertex = {&vtChunk_screen_vert},
     .fragment = {&vtChunk_merge_frag},
-    .samplers = {"u_layerDepths"},
     .uniforms = {"u_group", "u_firstLayer"},
 };
 
@@ -32,7 +31,7 @@ void vtMergePass_Draw(const vtMergePass* pass, const vtGL* gl, const vtTexture* 
 {
     const int groups = (pass->layers + 3) / 4;
     gl->UseProgram(pass->program.name);
-    vtTexture_Bind(layerDepths, gl, 0);
+    vtTexture_Bind(layerDepths, gl, vt_samplerLayerDepths);
     vtBindFramebuffer(gl, pass->framebuffer, pass->depths.width, pass->depths.height);
     for (int slice = 0; slice < pass->depths.layers; ++slice) {
         gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, pass->depths.name, 0, slice);

@@ -14,13 +14,11 @@ static const vtProgramDef programDefs[vt_peelKindCount] = {
                     .vertex = {&vtChunk_layer, &vtChunk_mesh_vert},
                     .fragment = {&vtChunk_layer, &vtChunk_octahedral, &vtChunk_surface_attributes,
                                  &vtChunk_peel_frag},
-                    .samplers = {"u_previousDepth"},
                     .uniforms = VT_OBJECT_UNIFORMS},
     [vt_peelEachObject] = {.name = "peel object",
                            .vertex = {&vtChunk_objects, &vtChunk_layer_of_object, &vtChunk_mesh_vert},
                            .fragment = {&vtChunk_objects, &vtChunk_layer_of_object, &vtChunk_octahedral,
                                         &vtChunk_surface_attributes, &vtChunk_peel_frag},
-                           .samplers = {"u_previousDepth", "u_objects"},
                            .uniforms = VT_OBJECT_UNIFORMS},
     [vt_peelFarthest] = {.name = "farthest",
                          .vertex = {&vtChunk_layer, &vtChunk_mesh_vert},
@@ -79,7 +77,7 @@ static void drawLayer(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffe
     gl->ClearBufferfv(GL_DEPTH, 0, &clearDepth);
     gl->ClearBufferuiv(GL_COLOR, 0, noNormal);
     gl->ClearBufferuiv(GL_COLOR, 1, noDepth);
-    vtTexture_Bind(&pass->depthBuffers[1 - buffer], gl, 0);
+    vtTexture_Bind(&pass->depthBuffers[1 - buffer], gl, vt_samplerPreviousDepth);
     vtSceneBuffer_Draw(scene, gl, &pass->programs[kind], first, last);
 }
 
@@ -107,7 +105,7 @@ void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer
     } else if (kind == vt_peelAll) {
         peelSet(pass, gl, scene, kind, 0, 0, glass);
     } else {
-        vtTexture_Bind(&scene->table, gl, 1);
+        vtTexture_Bind(&scene->table, gl, vt_samplerObjects);
         for (uint32_t object = 0; object < glass; ++object) {
             peelSet(pass, gl, scene, kind, (int)object, object, object + 1);
         }

@@ -6,7 +6,6 @@ static const vtProgramDef programDef = {
     .name = "present",
     .vertex = {&vtChunk_screen_vert},
     .fragment = {&vtChunk_octahedral, &vtChunk_srgb, &vtChunk_present_frag},
-    .samplers = {"u_paths", "u_radiance", "u_layerDepths", "u_layerNormals"},
 };
 
 void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtProgramList* programs)
@@ -15,16 +14,16 @@ void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtProgramList* pro
 }
 
 void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPresentInputs* inputs,
-                        GLuint framebuffer, int width, int height)
+                        GLuint framebuffer, int x, int y, int width, int height)
 {
-    vtBindFramebuffer(gl, framebuffer, width, height);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl->Viewport(x, y, width, height);
     gl->UseProgram(pass->program.name);
-    vtTexture_Bind(inputs->paths, gl, 0);
-    vtTexture_Bind(inputs->radiance, gl, 1);
-    if (inputs->layerDepths->name != 0) {
-        vtTexture_Bind(inputs->layerDepths, gl, 2);
-        vtTexture_Bind(inputs->layerNormals, gl, 3);
-    }
+    const vtBinding bindings[] = {{vt_samplerPaths, inputs->paths},
+                                  {vt_samplerRadiance, inputs->radiance},
+                                  {vt_samplerLayerDepths, inputs->layerDepths},
+                                  {vt_samplerLayerNormals, inputs->layerNormals}};
+    vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -19,5 +19,5 @@ typedef struct vtPresentInputs {
 
 void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtProgramList* programs);
 void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPresentInputs* inputs,
-                        GLuint framebuffer, int width, int height);
+                        GLuint framebuffer, int x, int y, int width, int height);
 void vtPresentPass_Destroy(vtPresentPass* pass, const vtGL* gl);

@@ -56,11 +56,12 @@ static const vtProgram* useProgram(const vtRefractPass* pass, const vtGL* gl, vt
     const vtProgram* program = &(inputs->countReads ? pass->counters : pass->programs)[technique][variant];
     const vtSceneBuffer* scene = inputs->scene;
     gl->UseProgram(program->name);
-    // Units as VT_REFRACT_SAMPLERS in technique.c names them.
-    const vtTexture* units[] = {
-        inputs->surface,      inputs->innerDistances, inputs->layerDepths, inputs->layerNormals,
-        inputs->mergedDepths, &scene->table,          &scene->records,     &scene->tree};
-    vtBindTextures(gl, units, sizeof units / sizeof units[0]);
+    const vtBinding bindings[] = {
+        {vt_samplerSurface, inputs->surface},           {vt_samplerInnerDistances, inputs->innerDistances},
+        {vt_samplerLayerDepths, inputs->layerDepths},   {vt_samplerLayerNormals, inputs->layerNormals},
+        {vt_samplerMergedDepths, inputs->mergedDepths}, {vt_samplerObjects, &scene->table},
+        {vt_samplerRecords, &scene->geometry.records},  {vt_samplerObjectTree, &scene->tree}};
+    vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
     return program;
 }
 
@@ -104,10 +105,10 @@ void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTech
     gl->ClearBufferuiv(GL_COLOR, 0, background);
     const vtProgram* program = useProgram(pass, gl, technique, variant, inputs);
     gl->Uniform1i(program->uniforms[0], (GLint)object);
-    vtTexture_Bind(&before->paths, gl, 8); // VT_REFRACT_SAMPLERS in technique.c
-    vtTexture_Bind(&before->ends, gl, 9);
-    vtTexture_Bind(&before->lights, gl, 10);
-    vtTexture_Bind(&before->asides, gl, 11);
+    vtTexture_Bind(&before->paths, gl, vt_samplerPaths);
+    vtTexture_Bind(&before->ends, gl, vt_samplerEnds);
+    vtTexture_Bind(&before->lights, gl, vt_samplerLights);
+    vtTexture_Bind(&before->asides, gl, vt_samplerAsides);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

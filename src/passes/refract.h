@@ -28,7 +28,7 @@ typedef struct vtRefractPass {
     vtPathTargets targets[VT_PATH_SETS];
 } vtRefractPass;
 
-/// What a technique may read; those it needs (technique.c names them) must exist.
+/// What a technique may read; those it needs must exist.
 typedef struct vtRefractInputs {
     const vtTexture* surface;
     const vtTexture* innerDistances;

@@ -2,43 +2,44 @@
 
 #include "base/error.h"
 #include "shaders.h"
+#include "technique/technique.h"
 
-#define VT_SHADE_SAMPLERS                                                                                    \
-    {                                                                                                        \
-        "u_paths", "u_ends", "u_lights", "u_asides", "u_surface", "u_environment", "u_objects", "u_records", \
-            "u_objectTree", "u_attributes", "u_images", "u_lighting"                                         \
-    }
-
-#define VT_SHADE_OPAQUE_CHUNKS                                                                               \
-    &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics, &vtChunk_records,          \
-        &vtChunk_object_tree, &vtChunk_search_opaque, &vtChunk_lighting, &vtChunk_shading,                   \
-        &vtChunk_shade_frag
-
-// By whether there is something opaque, and a first surface.
-static const vtProgramDef programDefs[2][2] = {
-    {{.name = "shade blended",
-      .vertex = {&vtChunk_screen_vert},
-      .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_optics,
-                   &vtChunk_shade_frag},
-      .samplers = VT_SHADE_SAMPLERS},
-     {.name = "shade",
-      .vertex = {&vtChunk_screen_vert},
-      .fragment = {&vtChunk_with_surface, &vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects,
-                   &vtChunk_optics, &vtChunk_shade_frag},
-      .samplers = VT_SHADE_SAMPLERS}},
-    {{.name = "shade opaque blended",
-      .vertex = {&vtChunk_screen_vert},
-      .fragment = {&vtChunk_with_opaque, VT_SHADE_OPAQUE_CHUNKS},
-      .samplers = VT_SHADE_SAMPLERS},
-     {.name = "shade opaque",
-      .vertex = {&vtChunk_screen_vert},
-      .fragment = {&vtChunk_with_opaque, &vtChunk_with_surface, VT_SHADE_OPAQUE_CHUNKS},
-      .samplers = VT_SHADE_SAMPLERS}},
-};
-
-void vtShadePass_Start(vtShadePass* pass, const vtGL* gl, bool opaque, bool surface, vtProgramList* programs)
+static vtProgramDef describe(bool opaque, bool surface, bool host)
 {
-    vtProgramList_Start(programs, &pass->programs[opaque][surface], gl, &programDefs[opaque][surface]);
+    const vtChunk* const chunks[] = {
+        opaque ? &vtChunk_with_opaque : NULL,
+        surface ? &vtChunk_with_surface : NULL,
+        VT_WITH_HOST && host ? &vtChunk_with_backdrop : NULL,
+        &vtChunk_octahedral,
+        &vtChunk_environment,
+        &vtChunk_objects,
+        &vtChunk_optics,
+        opaque ? &vtChunk_records : NULL,
+        opaque ? &vtChunk_object_tree : NULL,
+        opaque ? &vtChunk_search_opaque : NULL,
+        opaque ? &vtChunk_lighting : NULL,
+        opaque ? &vtChunk_shading : NULL,
+        VT_WITH_HOST && host ? &vtChunk_srgb : NULL,
+        VT_WITH_HOST && host ? &vtChunk_host_depth : NULL,
+        VT_WITH_HOST && host ? &vtChunk_backdrop : NULL,
+        &vtChunk_surroundings,
+        &vtChunk_shade_frag,
+    };
+    vtProgramDef def = {.name = "shade", .vertex = {&vtChunk_screen_vert}};
+    int count = 0;
+    for (size_t i = 0; i < sizeof chunks / sizeof chunks[0]; ++i) {
+        if (chunks[i] != NULL) {
+            def.fragment[count++] = chunks[i];
+        }
+    }
+    return def;
+}
+
+void vtShadePass_Start(vtShadePass* pass, const vtGL* gl, bool opaque, bool surface, bool host,
+                       vtProgramList* programs)
+{
+    const vtProgramDef def = describe(opaque, surface, host);
+    vtProgramList_Start(programs, &pass->programs[opaque][surface][host], gl, &def);
 }
 
 vtResult vtShadePass_Resize(vtShadePass* pass, const vtGL* gl, int width, int height, vtError* error)
@@ -55,20 +56,32 @@ void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInpu
     const vtSceneBuffer* scene = inputs->scene;
     const bool opaque = scene->objectCount > scene->glassCount;
     vtBindFramebuffer(gl, pass->framebuffer, pass->radiance.width, pass->radiance.height);
-    gl->UseProgram(pass->programs[opaque][inputs->surface != NULL].name);
-    // Units as VT_SHADE_SAMPLERS names them.
-    const vtTexture* units[] = {&inputs->paths->paths,  &inputs->paths->ends, &inputs->paths->lights,
-                                &inputs->paths->asides, inputs->surface,      &inputs->environment->picture,
-                                &scene->table,          &scene->records,      &scene->tree,
-                                &scene->attributes,     &scene->images,       &inputs->environment->lighting};
-    vtBindTextures(gl, units, sizeof units / sizeof units[0]);
+    const bool host = VT_WITH_HOST && inputs->host->color != 0;
+    gl->UseProgram(pass->programs[opaque][inputs->surface != NULL][host].name);
+    const vtPathTargets* paths = inputs->paths;
+    const vtEnvironmentBuffer* environment = inputs->environment;
+    const vtBinding bindings[] = {
+        {vt_samplerPaths, &paths->paths},     {vt_samplerEnds, &paths->ends},
+        {vt_samplerLights, &paths->lights},   {vt_samplerAsides, &paths->asides},
+        {vt_samplerSurface, inputs->surface}, {vt_samplerEnvironment, &environment->picture},
+        {vt_samplerObjects, &scene->table},   {vt_samplerRecords, &scene->geometry.records},
+        {vt_samplerObjectTree, &scene->tree}, {vt_samplerAttributes, &scene->geometry.attributes},
+        {vt_samplerImages, &scene->images},   {vt_samplerLighting, &environment->lighting},
+    };
+    vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
+    if (host) {
+        vtHostPicture_Bind(inputs->host, gl);
+    }
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    if (host) {
+        vtHostPicture_Unbind(inputs->host, gl);
+    }
 }
 
 void vtShadePass_Destroy(vtShadePass* pass, const vtGL* gl)
 {
-    for (int i = 0; i < 4; ++i) {
-        vtProgram_Destroy(&pass->programs[i / 2][i % 2], gl);
+    for (int i = 0; i < 8; ++i) {
+        vtProgram_Destroy(&pass->programs[i / 4][i / 2 % 2][i % 2], gl);
     }
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtTexture_Destroy(&pass->radiance, gl);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/environment_buffer.h"
+#include "gl/host_picture.h"
 #include "gl/program.h"
 #include "gl/scene_buffer.h"
 #include "passes/refract.h"
@@ -8,7 +9,8 @@
 /// Turns the paths of the techniques that search layers, or blend, into light: the environment, opaque
 /// surfaces and reflections.
 typedef struct vtShadePass {
-    vtProgram programs[2][2]; ///< by whether there is something opaque, and a first surface
+    vtProgram programs[2][2][2]; ///< by whether there is something opaque, a first surface, and the host's
+                                 ///< picture behind
     GLuint framebuffer;
     vtTexture
         radiance; ///< RGBA32UI, bits of floats: linear light after exposure, share of the pixel it covers
@@ -19,9 +21,11 @@ typedef struct vtShadeInputs {
     const vtTexture* surface; ///< NULL: the technique has no first surface
     const vtSceneBuffer* scene;
     const vtEnvironmentBuffer* environment;
+    const vtHostPicture* host; ///< without a colour: there is none behind
 } vtShadeInputs;
 
-void vtShadePass_Start(vtShadePass* pass, const vtGL* gl, bool opaque, bool surface, vtProgramList* programs);
+void vtShadePass_Start(vtShadePass* pass, const vtGL* gl, bool opaque, bool surface, bool host,
+                       vtProgramList* programs);
 vtResult vtShadePass_Resize(vtShadePass* pass, const vtGL* gl, int width, int height, vtError* error);
 void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInputs* inputs);
 void vtShadePass_Destroy(vtShadePass* pass, const vtGL* gl);

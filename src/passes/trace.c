@@ -15,6 +15,7 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtFrame* f
     const bool opaque = scene->objectCount > scene->glassCount;
     const bool one = scene->objectCount == 1 && !opaque && !any && !scene->objects[0].bothSides;
     return (one ? vt_traceOneObject : 0) | (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
+           (vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? vt_traceHost : 0) |
            (any && only ? vt_traceOnlyHeights : 0) | (vtFrame_IsStrict(frame) ? vt_traceStrict : 0) |
            (frame->countReads ? vt_traceCounted : 0);
 }
@@ -22,6 +23,7 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtFrame* f
 static vtProgramDef describe(vtTraceVariant variant)
 {
     const bool heights = (variant & vt_traceHeights) != 0, opaque = (variant & vt_traceOpaque) != 0;
+    const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
     const vtChunk* const chunks[] = {
         (variant & vt_traceCounted) != 0 ? &vtChunk_count_reads : NULL,
@@ -29,6 +31,8 @@ static vtProgramDef describe(vtTraceVariant variant)
         one ? &vtChunk_one_object : NULL,
         opaque ? &vtChunk_with_opaque : NULL,
         records ? NULL : &vtChunk_only_heights,
+        host ? &vtChunk_with_backdrop : NULL,
+        host ? &vtChunk_with_depth : NULL,
         &vtChunk_octahedral,
         &vtChunk_media,
         &vtChunk_path,
@@ -43,13 +47,13 @@ static vtProgramDef describe(vtTraceVariant variant)
         &vtChunk_search_scene,
         opaque ? &vtChunk_lighting : NULL,
         opaque ? &vtChunk_shading : NULL,
+        host ? &vtChunk_srgb : NULL,
+        host ? &vtChunk_host_depth : NULL,
+        host ? &vtChunk_backdrop : NULL,
+        &vtChunk_surroundings,
         &vtChunk_trace_frag,
     };
-    vtProgramDef def = {.name = "trace",
-                        .vertex = {&vtChunk_screen_vert},
-                        .samplers = {"u_objects", "u_records", "u_objectTree", "u_environment",
-                                     "u_attributes", "u_images", "u_lighting", "u_heights", "u_heightRanges"},
-                        .uniforms = {"u_branches"}};
+    vtProgramDef def = {.name = "trace", .vertex = {&vtChunk_screen_vert}, .uniforms = {"u_branches"}};
     int count = 0;
     for (size_t i = 0; i < sizeof chunks / sizeof chunks[0]; ++i) {
         if (chunks[i] != NULL) {
@@ -65,30 +69,55 @@ void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant
     vtProgramList_Start(programs, &pass->programs[variant], gl, &def);
 }
 
-vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, int width, int height, vtError* error)
+vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, int width, int height,
+                            vtError* error)
 {
+    const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
     bool changed = vtTexture_Resize(&pass->paths, gl, GL_RGBA32UI, width, height, 0);
     changed |= vtTexture_Resize(&pass->radiance, gl, GL_RGBA32UI, width, height, 0);
-    if (!changed) {
+    if (changed) { // what they hold is gone
+        vtDestroyFramebuffers(gl, pass->framebuffers, 2);
+    }
+    if (host && vtTexture_Resize(&pass->depths, gl, GL_R32UI, width, height, 0)) {
+        vtDestroyFramebuffers(gl, &pass->framebuffers[1], 1);
+    }
+    if (pass->framebuffers[host] != 0) {
         return vtSucceed(error);
     }
-    const vtAttachment colors[] = {{&pass->paths, 0}, {&pass->radiance, 0}};
-    return vtMakeFramebuffer(gl, "trace", colors, 2, NULL, &pass->framebuffer, error);
+    const vtAttachment colors[] = {{&pass->paths, 0}, {&pass->radiance, 0}, {&pass->depths, 0}};
+    return vtMakeFramebuffer(gl, "trace", colors, host ? 3 : 2, NULL, &pass->framebuffers[host], error);
 }
 
 void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant variant,
-                      const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment, int branches)
+                      const vtTraceInputs* inputs)
 {
     const vtProgram* program = &pass->programs[variant];
-    vtBindFramebuffer(gl, pass->framebuffer, pass->paths.width, pass->paths.height);
+    const vtSceneBuffer* scene = inputs->scene;
+    const vtEnvironmentBuffer* environment = inputs->environment;
+    const vtHeightTexture* heights = vtSceneBuffer_Heights(scene);
+    const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
+    vtBindFramebuffer(gl, pass->framebuffers[host], pass->paths.width, pass->paths.height);
     gl->UseProgram(program->name);
-    gl->Uniform1i(program->uniforms[0], branches);
-    // Units as the samplers above.
-    const vtTexture* units[] = {&scene->table,          &scene->records,         &scene->tree,
-                                &environment->picture,  &scene->attributes,      &scene->images,
-                                &environment->lighting, &scene->heights.heights, &scene->heights.ranges};
-    vtBindTextures(gl, units, sizeof units / sizeof units[0]);
+    gl->Uniform1i(program->uniforms[0], inputs->branches);
+    const vtBinding bindings[] = {
+        {vt_samplerObjects, &scene->table},
+        {vt_samplerRecords, &scene->geometry.records},
+        {vt_samplerObjectTree, &scene->tree},
+        {vt_samplerEnvironment, &environment->picture},
+        {vt_samplerAttributes, &scene->geometry.attributes},
+        {vt_samplerImages, &scene->images},
+        {vt_samplerLighting, &environment->lighting},
+        {vt_samplerHeights, heights != NULL ? &heights->heights : NULL},
+        {vt_samplerHeightRanges, heights != NULL ? &heights->ranges : NULL},
+    };
+    vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
+    if (host) {
+        vtHostPicture_Bind(inputs->host, gl);
+    }
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    if (host) {
+        vtHostPicture_Unbind(inputs->host, gl);
+    }
 }
 
 void vtTracePass_Destroy(vtTracePass* pass, const vtGL* gl)
@@ -96,13 +125,14 @@ void vtTracePass_Destroy(vtTracePass* pass, const vtGL* gl)
     for (int i = 0; i < vt_traceVariantCount; ++i) {
         vtProgram_Destroy(&pass->programs[i], gl);
     }
-    vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
+    vtDestroyFramebuffers(gl, pass->framebuffers, 2);
     vtTexture_Destroy(&pass->paths, gl);
     vtTexture_Destroy(&pass->radiance, gl);
+    vtTexture_Destroy(&pass->depths, gl);
     *pass = (vtTracePass){0};
 }
 
 size_t vtTracePass_Bytes(const vtTracePass* pass)
 {
-    return vtTexture_Bytes(&pass->paths) + vtTexture_Bytes(&pass->radiance);
+    return vtTexture_Bytes(&pass->paths) + vtTexture_Bytes(&pass->radiance) + vtTexture_Bytes(&pass->depths);
 }

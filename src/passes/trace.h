@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/environment_buffer.h"
+#include "gl/host_picture.h"
 #include "gl/program.h"
 #include "gl/scene_buffer.h"
 
@@ -12,24 +13,34 @@ typedef enum vtTraceVariant {
     vt_traceOnlyHeights = 8, ///< there is nothing else
     vt_traceStrict = 16,     ///< without Fresnel reflection
     vt_traceCounted = 32,    ///< texture reads are counted
-    vt_traceVariantCount = 64,
+    vt_traceHost = 64,       ///< over or before the host's picture
+    vt_traceVariantCount = 128,
 } vtTraceVariant;
 
 /// The techniques that need no image of the scene: from the eye to the light in one drawing (trace.frag).
 typedef struct vtTracePass {
     vtProgram programs[vt_traceVariantCount];
-    GLuint framebuffer;
-    vtTexture paths; ///< RGBA32UI: bits of the last direction (three floats), state (VT_PATH_...)
+    GLuint framebuffers[2]; ///< the second with depths
+    vtTexture paths;        ///< RGBA32UI: bits of the last direction (three floats), state (VT_PATH_...)
     vtTexture
-        radiance; ///< RGBA32UI, bits of floats: linear light after exposure, share of the pixel it covers
+        radiance;     ///< RGBA32UI, bits of floats: linear light after exposure, share of the pixel it covers
+    vtTexture depths; ///< R32UI, bits of a float: of what is seen first, in front of the eye; 0: nothing
 } vtTracePass;
+
+/// For a variant with vt_traceHost also `depths`.
+typedef struct vtTraceInputs {
+    const vtSceneBuffer* scene;
+    const vtEnvironmentBuffer* environment;
+    const vtHostPicture* host;
+    int branches; ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
+} vtTraceInputs;
 
 /// The variant for a frame.
 vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtFrame* frame);
 void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs);
-vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, int width, int height, vtError* error);
-/// branches: 0 to VT_MAX_BRANCHES, times that light which left a path is followed.
+vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, int width, int height,
+                            vtError* error);
 void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant variant,
-                      const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment, int branches);
+                      const vtTraceInputs* inputs);
 void vtTracePass_Destroy(vtTracePass* pass, const vtGL* gl);
 size_t vtTracePass_Bytes(const vtTracePass* pass);

@@ -3,10 +3,10 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/error.h"
 #include "image/image.h"
+#include "image/image_checks.h"
 #include "mesh/height_field.h"
 
 /// Steps of 1/256 of the depth, spread over five samples and more, no longer show in a refraction.
@@ -40,8 +40,13 @@ static vtResult normalise(float* heights, int width, int height, const char* nam
 vtResult vtLoadReliefOfBits(const void* bytes, size_t size, const char* name, const vtReliefDef* def,
                             vtMesh* mesh, int* bits, vtError* error)
 {
-    assert(def != NULL && mesh != NULL && bits != NULL);
+    if (mesh == NULL) {
+        return vtFailMissing(error, "vtLoadRelief", "mesh");
+    }
     *mesh = (vtMesh){0};
+    if (def == NULL || (bytes == NULL && size > 0)) {
+        return vtFailMissing(error, "vtLoadRelief", def == NULL ? "def" : "bytes");
+    }
     float* heights;
     vtReliefDef own = *def;
     vtResult result = vtDecodeHeights(bytes, size, name, &heights, &own.width, &own.height, bits, error);
@@ -53,7 +58,7 @@ vtResult vtLoadReliefOfBits(const void* bytes, size_t size, const char* name, co
         own.smoothing = def->smoothing != -1.0f ? def->smoothing : *bits == 8 ? smoothingOf8Bits : 0.0f;
         result = vtCreateRelief(&own, name, mesh, error);
     }
-    free(heights);
+    vtFree(heights);
     return result;
 }
 
@@ -68,7 +73,7 @@ vtResult vtCreateReliefOfPixels(const uint8_t* pixels, int width, int height, co
         return result;
     }
     const size_t count = (size_t)width * (size_t)height;
-    float* heights = malloc(count * sizeof *heights);
+    float* heights = vtAllocate(count, sizeof *heights);
     if (heights == NULL) {
         return vtFail(error, vt_errorMemory,
                       "relief '%.300s': out of memory for %d x %d samples; scale it down", name, width,
@@ -84,7 +89,7 @@ vtResult vtCreateReliefOfPixels(const uint8_t* pixels, int width, int height, co
     own.height = height;
     own.smoothing = def->smoothing != -1.0f ? def->smoothing : smoothingOf8Bits;
     result = vtCreateRelief(&own, name, mesh, error);
-    free(heights);
+    vtFree(heights);
     return result;
 }
 
@@ -95,11 +100,11 @@ vtResult vtCreateReliefOfDepth(const vtMesh* unit, float depth, float thickness,
     const size_t count = (size_t)from->width * (size_t)from->height;
     const size_t rangeCount = from->starts[from->levelCount + 1];
     *mesh = *unit;
-    vtHeightField* field = mesh->heights = malloc(sizeof *field);
+    vtHeightField* field = mesh->heights = vtAllocate(1, sizeof *field);
     if (field != NULL) {
         *field = *from;
-        field->z = malloc(count * sizeof *field->z);
-        field->ranges = malloc(rangeCount * sizeof *field->ranges);
+        field->z = vtAllocate(count, sizeof *field->z);
+        field->ranges = vtAllocate(rangeCount, sizeof *field->ranges);
     }
     if (field == NULL || field->z == NULL || field->ranges == NULL) {
         vtDestroyHeightField(field);
@@ -121,6 +126,7 @@ vtResult vtCreateReliefOfDepth(const vtMesh* unit, float depth, float thickness,
     field->back = fminf(field->low, 0.0f) - thickness;
     mesh->boundsMin.z = field->back;
     mesh->boundsMax.z = field->high;
+    mesh->volume = fabs(vtHeightField_Volume(field));
     return vtSucceed(error);
 }
 

@@ -1,7 +1,6 @@
 // Triangles of a relief. The front and the walls have them at every sample; the flat back, whose border must
 // fit the walls', has rings of triangles that double their size from one to the next inwards, so that it
 // costs next to nothing.
-#include <stdlib.h>
 
 #include "base/error.h"
 #include "base/math.h"
@@ -193,6 +192,9 @@ static void addBack(vtMesh* mesh, const vtHeightField* field)
 
 vtResult vtTriangulateRelief(vtMesh* mesh, vtError* error)
 {
+    if (mesh == NULL) {
+        return vtFailMissing(error, "vtTriangulateRelief", "mesh");
+    }
     const vtHeightField* field = mesh->heights;
     if (field == NULL || mesh->indexCount > 0) {
         return vtSucceed(error);
@@ -203,13 +205,13 @@ vtResult vtTriangulateRelief(vtMesh* mesh, vtError* error)
     // wide, as many again; a relief that is narrower than that has a grid as its front has.
     const size_t vertices = samples + 2 * (border + 4) + 5 * border + 64;
     const size_t triangles = vtHeightField_FirstBack(field) + 10 * border + 128;
-    mesh->positions = malloc(vertices * 3 * sizeof(float));
-    mesh->normals = malloc(vertices * 3 * sizeof(float));
-    mesh->indices = malloc(triangles * 3 * sizeof(uint32_t));
+    mesh->positions = vtAllocate(vertices, 3 * sizeof(float));
+    mesh->normals = vtAllocate(vertices, 3 * sizeof(float));
+    mesh->indices = vtAllocate(triangles, 3 * sizeof(uint32_t));
     if (mesh->positions == NULL || mesh->normals == NULL || mesh->indices == NULL) {
-        free(mesh->positions);
-        free(mesh->normals);
-        free(mesh->indices);
+        vtFree(mesh->positions);
+        vtFree(mesh->normals);
+        vtFree(mesh->indices);
         mesh->positions = mesh->normals = NULL;
         mesh->indices = NULL;
         return vtFail(

@@ -2,9 +2,7 @@
 // alone, so that more samples show the same relief more finely.
 #include "relief/relief.h"
 
-#include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/about.h"
@@ -139,8 +137,13 @@ static void fill(int pattern, int width, int height, float* heights)
 
 vtResult vtCreateReliefPattern(const char* name, const vtReliefDef* def, vtMesh* mesh, vtError* error)
 {
-    assert(name != NULL && def != NULL && mesh != NULL);
+    if (mesh == NULL) {
+        return vtFailMissing(error, "vtCreateReliefPattern", "mesh");
+    }
     *mesh = (vtMesh){0};
+    if (name == NULL || def == NULL) {
+        return vtFailMissing(error, "vtCreateReliefPattern", name == NULL ? "name" : "def");
+    }
     const int pattern = vtFindReliefPattern(name);
     if (pattern < 0) {
         return vtFail(
@@ -157,7 +160,7 @@ vtResult vtCreateReliefPattern(const char* name, const vtReliefDef* def, vtMesh*
                       "relief '%s' is asked for in %d x %d samples; a side must be 2 to %d", name, own.width,
                       own.height, VT_MAX_RELIEF_SIDE);
     }
-    float* heights = malloc((size_t)own.width * (size_t)own.height * sizeof *heights);
+    float* heights = vtAllocate((size_t)own.width * (size_t)own.height, sizeof *heights);
     if (heights == NULL) {
         return vtFail(error, vt_errorMemory, "relief '%s': out of memory for %d x %d samples; ask for fewer",
                       name, own.width, own.height);
@@ -165,6 +168,6 @@ vtResult vtCreateReliefPattern(const char* name, const vtReliefDef* def, vtMesh*
     fill(pattern, own.width, own.height, heights);
     own.heights = heights;
     const vtResult result = vtCreateRelief(&own, name, mesh, error);
-    free(heights);
+    vtFree(heights);
     return result;
 }

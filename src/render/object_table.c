@@ -50,47 +50,47 @@ static void writeTransform(const vtObjectBuffer* object, vtVec3 origin, uint32_t
     writeNumbers(words, VT_OBJECT_OWN_HIGH, high.x, high.y, high.z, 0.0f);
 }
 
-static void writeRecords(const vtMeshRecords* records, bool bothSides, uint32_t* words)
+static void writeRecords(const vtGeometryBuffer* geometry, bool bothSides, uint32_t* words)
 {
-    const vtVec3 low = records->gridLow, scale = records->gridScale;
+    const vtVec3 low = geometry->gridLow, scale = geometry->gridScale;
     writeNumbers(words, VT_OBJECT_GRID_LOW, low.x, low.y, low.z, 0.0f);
     writeNumbers(words, VT_OBJECT_GRID_SCALE, scale.x, scale.y, scale.z, 0.0f);
-    words[4 * VT_OBJECT_GRID_LOW + 3] = records->first;
+    words[4 * VT_OBJECT_GRID_LOW + 3] = geometry->records.first;
     words[4 * VT_OBJECT_GRID_SCALE + 3] = bothSides;
 }
 
 /// The frustum of the layers that an object has to itself, and their number among those of all.
-static void writeLayers(const vtFrame* frame, const vtPlacedObject* placed, uint32_t set, uint32_t* words)
+static void writeLayers(const vtCamera* camera, const vtPlacedObject* placed, uint32_t set, uint32_t* words)
 {
-    const vtFrustum f = vtMakeLayerFrustum(&frame->view, placed->low, placed->high);
+    const vtFrustum f = vtMakeLayerFrustum(camera, placed->low, placed->high);
     writeNumbers(words, VT_OBJECT_FRUSTUM, f.left, f.bottom, f.right, f.top);
     writeNumbers(words, VT_OBJECT_DEPTHS, f.near, f.far, 1.0f / (f.far - f.near), 0.0f);
     words[4 * VT_OBJECT_HIGH + 3] = set;
 }
 
-void vtWriteObjectTable(const vtSceneBuffer* scene, const vtFrame* frame)
+void vtWriteObjectTable(const vtSceneBuffer* scene, const vtFrame* frame, const vtCamera* camera)
 {
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     for (uint32_t i = 0; i < scene->objectCount; ++i) {
         uint32_t* words = scene->fresh + 4 * VT_OBJECT_TEXELS * (size_t)i;
         const vtObjectBuffer* object = &scene->objects[i];
-        const vtMeshRecords* records = &scene->meshRecords[object->mesh];
+        const vtGeometryBuffer* geometry = &scene->geometry.items[object->geometry];
         const bool byHeights = row->heights && vtSceneBuffer_HasHeights(scene, i);
         const bool peeled = row->layerSpace == vt_layersOfEachObject && !object->material.opaque;
         memset(words, 0, VT_OBJECT_TEXELS * 4 * sizeof *words);
-        writeTransform(object, byHeights ? records->origin : (vtVec3){0.0f, 0.0f, 0.0f}, words);
+        writeTransform(object, byHeights ? geometry->origin : (vtVec3){0.0f, 0.0f, 0.0f}, words);
         // A little more than the box: a ray that starts on its side is within it. Layers are widened by whole
         // texels (search_layered.glsl).
         writeBox(&object->placed, peeled ? 0.0f : 1e-5f, words);
         writeMaterial(object, frame->ior, words);
-        writeRecords(records, object->bothSides, words);
+        writeRecords(geometry, object->bothSides, words);
         if (byHeights) {
-            const float cell = scene->heights.cell;
+            const float cell = geometry->heights.cell;
             words[4 * VT_OBJECT_OWN_LOW + 3] = 1;
             memcpy(words + 4 * VT_OBJECT_OWN_HIGH + 3, &cell, sizeof cell);
         }
         if (peeled) {
-            writeLayers(frame, &object->placed, i, words);
+            writeLayers(camera, &object->placed, i, words);
         }
     }
 }

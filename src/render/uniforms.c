@@ -24,8 +24,8 @@ static void extendLayerSize(const vtFrame* frame, const vtFrustum* frustum, int*
 }
 
 /// The frustum of the one set of layers, if there is one, and the size of all sets.
-static vtFrustum chooseLayers(const vtSceneBuffer* scene, const vtFrame* frame, const vtFrustum* picture,
-                              int* width, int* height)
+static vtFrustum chooseLayers(const vtSceneBuffer* scene, const vtFrame* frame, const vtCamera* camera,
+                              const vtFrustum* picture, int* width, int* height)
 {
     const vtLayerSpace space = vtTechnique_Row(frame->technique)->layerSpace;
     if (space == vt_layersOfPicture) {
@@ -34,10 +34,10 @@ static vtFrustum chooseLayers(const vtSceneBuffer* scene, const vtFrame* frame, 
         return *picture;
     }
     *width = *height = 0;
-    const vtFrustum all = vtMakeLayerFrustum(&frame->view, scene->glassMin, scene->glassMax);
+    const vtFrustum all = vtMakeLayerFrustum(camera, scene->glassMin, scene->glassMax);
     for (uint32_t i = 0; i < scene->glassCount && space == vt_layersOfEachObject; ++i) {
         const vtPlacedObject* placed = &scene->objects[i].placed;
-        const vtFrustum own = vtMakeLayerFrustum(&frame->view, placed->low, placed->high);
+        const vtFrustum own = vtMakeLayerFrustum(camera, placed->low, placed->high);
         extendLayerSize(frame, &own, width, height);
     }
     if (*width == 0) {
@@ -60,29 +60,29 @@ static void setFrustum(float* tangents, float* depth, const vtFrustum* f)
     setVec4(depth, f->near, f->far, 1.0f / (f->far - f->near), 0.0f);
 }
 
-static void setCamera(vtFrameUniforms* uniforms, const vtView* view)
+static void setCamera(vtFrameUniforms* uniforms, const vtCamera* camera)
 {
-    vtCameraFrame camera = vtMakeCameraFrame(view);
-    const vtVec3 rows[3] = {camera.right, camera.up, camera.forward};
+    const vtVec3 rows[3] = {camera->right, camera->up, camera->forward};
     for (int row = 0; row < 3; ++row) {
         uniforms->worldToCamera[0][row] = rows[row].x;
         uniforms->worldToCamera[1][row] = rows[row].y;
         uniforms->worldToCamera[2][row] = rows[row].z;
-        uniforms->worldToCamera[3][row] = -vtDot(rows[row], camera.eye);
+        uniforms->worldToCamera[3][row] = -vtDot(rows[row], camera->eye);
     }
     uniforms->worldToCamera[3][3] = 1.0f;
-    setVec4(uniforms->eye, camera.eye.x, camera.eye.y, camera.eye.z, 1.0f);
+    setVec4(uniforms->eye, camera->eye.x, camera->eye.y, camera->eye.z, 1.0f);
+    setVec4(uniforms->clip, camera->clip[0], camera->clip[1], 0.9999f * camera->farthest,
+            camera->orthographic);
 }
 
-void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, vtEnvironmentKind environment,
-                    vtFrameUniforms* uniforms)
+void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, const vtCamera* camera,
+                    vtEnvironmentKind environment, vtFrameUniforms* uniforms)
 {
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     const vtVec3 low = scene->glassMin, high = scene->glassMax;
-    float aspect = (float)frame->width / (float)frame->height;
-    vtFrustum picture = vtMakePictureFrustum(&frame->view, aspect, scene->low, scene->high);
+    vtFrustum picture = vtMakePictureFrustum(camera, scene->low, scene->high);
     int layerWidth, layerHeight;
-    const vtFrustum layers = chooseLayers(scene, frame, &picture, &layerWidth, &layerHeight);
+    const vtFrustum layers = chooseLayers(scene, frame, camera, &picture, &layerWidth, &layerHeight);
     const vtVec3 extent = vtSub(high, low);
     const float wall = frame->wallThickness > 0.0f ? frame->wallThickness
                                                    : 0.06f * fmaxf(extent.x, fmaxf(extent.y, extent.z));
@@ -95,8 +95,10 @@ void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, vtEnvironm
         .scene = {(int)scene->glassCount, (int)scene->objectCount, !vtFrame_IsStrict(frame),
                   row->findsOpaque && !vtVariant_IsOrdered(vtFrame_Variant(frame, true))},
         .output = {frame->output, frame->layer, environment, frame->transparentBackground},
+        .host = {frame->x, frame->y, frame->linear,
+                 (frame->hostColor != 0) + 2 * (frame->hostDepth != 0) + 4 * frame->hostLinear},
     };
-    setCamera(uniforms, &frame->view);
+    setCamera(uniforms, camera);
     setFrustum(uniforms->pictureFrustum, uniforms->pictureDepth, &picture);
     setFrustum(uniforms->layerFrustum, uniforms->layerDepth, &layers);
     setVec4(uniforms->boundsMin, low.x, low.y, low.z, 0.0f);

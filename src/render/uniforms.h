@@ -3,10 +3,11 @@
 
 #include "gl/scene_buffer.h"
 #include "gl/uniforms.h"
+#include "scene/camera.h"
 
 /// Those of a resolved frame, for the pixel's centre.
-void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, vtEnvironmentKind environment,
-                    vtFrameUniforms* uniforms);
+void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, const vtCamera* camera,
+                    vtEnvironmentKind environment, vtFrameUniforms* uniforms);
 
 /// Those of one of its samples, the picture's frustum moved to it, and where `movesLayers` that of the
 /// layers; `count` samples are in the sum with it.

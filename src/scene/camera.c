@@ -2,13 +2,14 @@
 
 #include <float.h>
 
+#include "base/error.h"
 #include "base/math.h"
 #include "scene/objects.h"
 
 // How far the default view looks down, and round to the right; that of the truth images.
 static const vtVec3 defaultDirection = {0.1167f, 0.0972f, 0.9884f};
 
-vtCameraFrame vtMakeCameraFrame(const vtView* view)
+vtCamera vtMakeViewCamera(const vtView* view)
 {
     vtVec3 forward = vtNormalize(vtSub(view->target, view->eye));
     vtVec3 worldUp = {0.0f, 1.0f, 0.0f};
@@ -17,7 +18,115 @@ vtCameraFrame vtMakeCameraFrame(const vtView* view)
         worldUp = (vtVec3){0.0f, 0.0f, forward.y < 0.0f ? -1.0f : 1.0f};
     }
     vtVec3 right = vtNormalize(vtCross(forward, worldUp));
-    return (vtCameraFrame){view->eye, right, vtCross(right, forward), forward};
+    return (vtCamera){.eye = view->eye, .right = right, .up = vtCross(right, forward), .forward = forward};
+}
+
+static bool areFinite(const float* matrix)
+{
+    bool finite = true;
+    for (int i = 0; i < 16; ++i) {
+        finite = finite && isfinite(matrix[i]);
+    }
+    return finite;
+}
+
+/// Rows of unit length, at right angles, right-handed.
+static bool isRigid(const float* m)
+{
+    const vtVec3 x = {m[0], m[4], m[8]}, y = {m[1], m[5], m[9]}, z = {m[2], m[6], m[10]};
+    const float tolerance = 1e-3f;
+    return fabsf(vtDot(x, x) - 1.0f) < tolerance && fabsf(vtDot(y, y) - 1.0f) < tolerance &&
+           vtLength(vtSub(vtCross(x, y), z)) < tolerance &&
+           fabsf(m[3]) + fabsf(m[7]) + fabsf(m[11]) < tolerance && fabsf(m[15] - 1.0f) < tolerance;
+}
+
+static bool isOrthographic(const float* projection)
+{
+    return projection[11] == 0.0f;
+}
+
+static bool isProjection(const float* p)
+{
+    const float w = isOrthographic(p) ? 1.0f : 0.0f;
+    const float* other = w == 1.0f ? p + 8 : p + 12; // where the other kind has its shift
+    const float skew = fabsf(p[1]) + fabsf(p[4]) + fabsf(p[2]) + fabsf(p[6]) + fabsf(p[3]) + fabsf(p[7]) +
+                       fabsf(other[0]) + fabsf(other[1]);
+    return skew == 0.0f && p[0] > 0.0f && p[5] > 0.0f && p[15] == w && (w == 1.0f || p[11] == -1.0f) &&
+           p[14 - 4 * (int)w] != 0.0f;
+}
+
+vtResult vtCheckMatrices(const vtFrame* frame, vtError* error)
+{
+    const float *view = frame->viewMatrix, *projection = frame->projectionMatrix;
+    if ((view == NULL) != (projection == NULL)) {
+        return vtFail(error, vt_errorArgument,
+                      "the view matrix is %s and the projection matrix %s; give both or none",
+                      view != NULL ? "given" : "NULL", projection != NULL ? "given" : "NULL");
+    }
+    if (view == NULL) {
+        return vt_ok;
+    }
+    if (!VT_WITH_HOST) {
+        return vtFail(error, vt_errorArgument,
+                      "this build, for web pages, takes a view by eye and target only");
+    }
+    if (!areFinite(view) || !isRigid(view)) {
+        return vtFail(error, vt_errorArgument,
+                      "the view matrix is no rotation and shift; leave scales to the objects' transforms");
+    }
+    if (!areFinite(projection) || !isProjection(projection)) {
+        return vtFail(error, vt_errorArgument,
+                      "the projection matrix is neither a perspective nor an orthographic one, column-major, "
+                      "that looks "
+                      "along -z");
+    }
+    return vt_ok;
+}
+
+/// Depth of a z of clip coordinates over w.
+static float depthOf(const vtCamera* camera, float z)
+{
+    return camera->orthographic ? (camera->clip[1] - z) / camera->clip[0]
+                                : camera->clip[1] / (z + camera->clip[0]);
+}
+
+/// Eye coordinates look along -z, ours along their depth.
+static vtCamera cameraOfMatrices(const float* m, const float* p)
+{
+    vtCamera camera = {.right = {m[0], m[4], m[8]},
+                       .up = {m[1], m[5], m[9]},
+                       .forward = {-m[2], -m[6], -m[10]},
+                       .orthographic = isOrthographic(p),
+                       .clip = {p[10], p[14]}};
+    camera.eye = vtScale(camera.right, -m[12]);
+    camera.eye = vtMulAdd(camera.eye, -m[13], camera.up);
+    camera.eye = vtMulAdd(camera.eye, m[14], camera.forward);
+    for (int axis = 0; axis < 2; ++axis) {
+        const float scale = p[5 * axis], shift = camera.orthographic ? -p[12 + axis] : p[8 + axis];
+        camera.low[axis] = (-1.0f + shift) / scale;
+        camera.high[axis] = (1.0f + shift) / scale;
+    }
+    const float a = depthOf(&camera, 1.0f), b = depthOf(&camera, -1.0f), farther = fmaxf(a, b);
+    camera.farthest = farther > 0.0f && farther < 3e38f ? farther : 3e38f;
+    return camera;
+}
+
+vtCamera vtMakeCamera(const vtFrame* frame)
+{
+    if (VT_WITH_HOST && frame->viewMatrix != NULL) {
+        return cameraOfMatrices(frame->viewMatrix, frame->projectionMatrix);
+    }
+    const float aspect = (float)frame->width / (float)frame->height;
+    const float tangent = tanf(frame->view.fovY * VT_PI / 360.0f);
+    vtCamera camera = vtMakeViewCamera(&frame->view);
+    camera.low[0] = -tangent * aspect;
+    camera.low[1] = -tangent;
+    camera.high[0] = tangent * aspect;
+    camera.high[1] = tangent;
+    camera.clip[0] = -1.0f; // no plane is given, and nothing is far
+    camera.clip[1] = -1.0f;
+    camera.farthest = 3e38f;
+    return camera;
 }
 
 void vtPixelSample(int index, float* x, float* y)
@@ -33,13 +142,13 @@ static vtVec3 boxCorner(vtVec3 low, vtVec3 high, int corner)
     return (vtVec3){corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};
 }
 
-static vtVec3 toCamera(const vtCameraFrame* camera, vtVec3 point)
+static vtVec3 toCamera(const vtCamera* camera, vtVec3 point)
 {
     vtVec3 offset = vtSub(point, camera->eye);
     return (vtVec3){vtDot(offset, camera->right), vtDot(offset, camera->up), vtDot(offset, camera->forward)};
 }
 
-static void fitDepthRange(const vtCameraFrame* camera, vtVec3 low, vtVec3 high, vtFrustum* frustum)
+static void fitDepthRange(const vtCamera* camera, vtVec3 low, vtVec3 high, vtFrustum* frustum)
 {
     float nearest = FLT_MAX, farthest = -FLT_MAX;
     for (int corner = 0; corner < 8; ++corner) {
@@ -55,23 +164,20 @@ static void fitDepthRange(const vtCameraFrame* camera, vtVec3 low, vtVec3 high, 
     frustum->far = fmaxf(farthest + margin, frustum->near + margin);
 }
 
-vtFrustum vtMakePictureFrustum(const vtView* view, float aspect, vtVec3 boundsMin, vtVec3 boundsMax)
+vtFrustum vtMakePictureFrustum(const vtCamera* camera, vtVec3 boundsMin, vtVec3 boundsMax)
 {
-    vtCameraFrame camera = vtMakeCameraFrame(view);
-    float tangent = tanf(view->fovY * VT_PI / 360.0f);
-    vtFrustum frustum = {-tangent * aspect, -tangent, tangent * aspect, tangent, 0.0f, 0.0f};
-    fitDepthRange(&camera, boundsMin, boundsMax, &frustum);
+    vtFrustum frustum = {camera->low[0], camera->low[1], camera->high[0], camera->high[1], 0.0f, 0.0f};
+    fitDepthRange(camera, boundsMin, boundsMax, &frustum);
     return frustum;
 }
 
-vtFrustum vtMakeLayerFrustum(const vtView* view, vtVec3 boundsMin, vtVec3 boundsMax)
+vtFrustum vtMakeLayerFrustum(const vtCamera* camera, vtVec3 boundsMin, vtVec3 boundsMax)
 {
-    vtCameraFrame camera = vtMakeCameraFrame(view);
     vtFrustum frustum = {FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX, 0.0f, 0.0f};
-    fitDepthRange(&camera, boundsMin, boundsMax, &frustum);
+    fitDepthRange(camera, boundsMin, boundsMax, &frustum);
 
     for (int corner = 0; corner < 8; ++corner) {
-        vtVec3 point = toCamera(&camera, boxCorner(boundsMin, boundsMax, corner));
+        vtVec3 point = toCamera(camera, boxCorner(boundsMin, boundsMax, corner));
         // A corner at or behind the near plane projects nowhere useful: it opens that side fully.
         float depth = fmaxf(point.z, frustum.near);
         float x = point.x / depth, y = point.y / depth;
@@ -93,8 +199,8 @@ vtFrustum vtMakeLayerFrustum(const vtView* view, vtVec3 boundsMin, vtVec3 bounds
 
 /// How far along `direction` from the centre an eye must stand so that the vertices, of a relief its box's
 /// corners, lie inside 90 % of the frame.
-static float frameDistance(const vtMesh* mesh, const vtTransform* toWorld, vtVec3 centre,
-                           const vtCameraFrame* camera, float tangentX, float tangentY)
+static float distanceToShow(const vtMesh* mesh, const vtTransform* toWorld, vtVec3 centre,
+                            const vtCamera* camera, float tangentX, float tangentY)
 {
     const vtVec3 low = mesh->boundsMin, high = mesh->boundsMax;
     const bool isRelief = mesh->heights != NULL;
@@ -109,34 +215,32 @@ static float frameDistance(const vtMesh* mesh, const vtTransform* toWorld, vtVec
     return distance;
 }
 
-vtView vtFrameScene(const vtScene* scene, float fovY, float aspect)
+vtView vtViewOfScene(const vtScene* scene, float fovY, float aspect)
 {
     vtVec3 low, high;
     vtScene_Bounds(scene, &low, &high);
     const vtVec3 centre = vtScale(vtAdd(low, high), 0.5f), direction = vtNormalize(defaultDirection);
     vtView view = {vtAdd(centre, direction), centre, fovY};
-    const vtCameraFrame camera = vtMakeCameraFrame(&view);
+    const vtCamera camera = vtMakeViewCamera(&view);
     const float tangentY = 0.9f * tanf(view.fovY * VT_PI / 360.0f), tangentX = tangentY * aspect;
-    bool anyGlass = false;
-    for (uint32_t i = 0; i < scene->objectCount; ++i) {
-        anyGlass = anyGlass || !scene->materials[scene->objects[i].material].opaque;
-    }
+    const bool anyGlass = scene != NULL && vtScene_HasGlass(scene);
     float distance = 0.0f;
-    for (uint32_t i = 0; i < scene->objectCount; ++i) {
-        const vtObject* object = &scene->objects[i];
-        if (!anyGlass || !scene->materials[object->material].opaque) {
-            distance = fmaxf(distance, frameDistance(&scene->meshes[object->mesh], &object->toWorld, centre,
-                                                     &camera, tangentX, tangentY));
+    for (uint32_t i = 0; scene != NULL && i < scene->objectCount; ++i) {
+        const vtObject* object = vtScene_Object(scene, i);
+        if (object != NULL && (!anyGlass || !scene->materials[object->material].opaque)) {
+            distance = fmaxf(distance, distanceToShow(&scene->meshes[object->mesh], &object->toWorld, centre,
+                                                      &camera, tangentX, tangentY));
         }
     }
     view.eye = vtMulAdd(centre, distance > 0.0f ? distance : 1.0f, direction);
     return view;
 }
 
-vtView vtFrameMesh(const vtMesh* mesh, float fovY, float aspect)
+vtView vtViewOfMesh(const vtMesh* mesh, float fovY, float aspect)
 {
     vtBorrowedMesh borrowed;
-    return vtFrameScene(vtBorrowMesh(mesh, &borrowed), fovY, aspect);
+    return mesh == NULL ? vtViewOfScene(NULL, fovY, aspect)
+                        : vtViewOfScene(vtBorrowMesh(mesh, &borrowed), fovY, aspect);
 }
 
 vtView vtView_Orbit(vtView view, float yaw, float pitch)

@@ -36,19 +36,46 @@ typedef struct vtPlacedObject {
     bool mirrored;     ///< toWorld turns clockwise into counter-clockwise
 } vtPlacedObject;
 
+/// The object, where it, its mesh and its material are in the scene; else NULL.
+static inline const vtObject* vtScene_Object(const vtScene* scene, uint32_t index)
+{
+    if (scene->objects == NULL || scene->meshes == NULL || scene->materials == NULL) {
+        return NULL;
+    }
+    const vtObject* object = &scene->objects[index];
+    return object->mesh < scene->meshCount && object->material < scene->materialCount ? object : NULL;
+}
+
 /// The scene's objects: glass by falling precedence, then what is opaque. Where objects of glass overlap, the
 /// first of them counts: an object's number here is its rank (scene/media.h). The order does not depend on
-/// the scene's. Allocated by malloc, scene->objectCount of them; *glassCount of these are glass. They point
+/// the scene's. From vtAllocate, scene->objectCount of them; *glassCount of these are glass. They point
 /// into the scene. Fails as vtValidateScene does, and with vt_errorMemory.
 vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error);
+
+/// The same of a scene whose meshes are known by counts, box and volume alone, and whose images are
+/// elsewhere.
+vtResult vtPlaceShapes(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error);
+
+/// What can be wrong with an object by itself: vt_errorGeometry (no scale along an axis) or vt_errorArgument
+/// (its index of refraction). `name`: the sentence's subject.
+vtResult vtCheckObject(const vtObject* object, const vtMaterial* material, const char* name, vtError* error);
 
 /// Moves the object's coordinates to the mesh's point `own` and the world's to `world`, at little loss
 /// however far these are from the origin.
 void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world);
 
+/// Whether an object made of the mesh is opaque, or else one that is not.
+bool vtScene_Uses(const vtScene* scene, uint32_t mesh, bool opaque);
+
 /// The first mesh that is a relief and glass, the one that technique `heightfield` draws by its heights;
 /// meshCount: there is none.
 uint32_t vtScene_Relief(const vtScene* scene);
+
+/// Whether any of its objects is glass.
+bool vtScene_HasGlass(const vtScene* scene);
+
+/// As vtPrepareScene, for a technique that meets the relief by its heights, or reads inner distances.
+vtResult vtScene_Complete(vtScene* scene, bool heights, bool innerDistances, bool* changed, vtError* error);
 
 static inline bool vtScene_HasRelief(const vtScene* scene)
 {

@@ -1,6 +1,6 @@
-#include <stdlib.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "mesh/hierarchy.h"
 
 struct vtPreparation {
@@ -12,7 +12,7 @@ struct vtPreparation {
 
 vtPreparation* vtBeginPreparation(vtScene* scene)
 {
-    vtPreparation* preparation = calloc(1, sizeof *preparation);
+    vtPreparation* preparation = scene != NULL ? vtAllocateZeroed(1, sizeof *preparation) : NULL;
     if (preparation != NULL) {
         preparation->scene = scene;
     }
@@ -22,7 +22,7 @@ vtPreparation* vtBeginPreparation(vtScene* scene)
 /// Gives the mesh what has been built.
 static void keep(vtPreparation* preparation, vtMesh* mesh)
 {
-    vtHierarchy* hierarchy = malloc(sizeof *hierarchy);
+    vtHierarchy* hierarchy = vtAllocate(1, sizeof *hierarchy);
     vtError* failure = &preparation->failure;
     if (hierarchy == NULL) {
         vtAbandonHierarchy(preparation->build);
@@ -30,13 +30,16 @@ static void keep(vtPreparation* preparation, vtMesh* mesh)
     } else if (vtFinishHierarchy(preparation->build, hierarchy, failure) == vt_ok) {
         mesh->hierarchy = hierarchy;
     } else {
-        free(hierarchy);
+        vtFree(hierarchy);
     }
     preparation->build = NULL;
 }
 
 bool vtPreparation_Step(vtPreparation* preparation, uint32_t work)
 {
+    if (preparation == NULL || preparation->scene->meshes == NULL) {
+        return true;
+    }
     vtScene* scene = preparation->scene;
     while (preparation->mesh < scene->meshCount && preparation->failure.result == vt_ok) {
         vtMesh* mesh = &scene->meshes[preparation->mesh];
@@ -63,8 +66,11 @@ bool vtPreparation_Step(vtPreparation* preparation, uint32_t work)
 
 vtResult vtEndPreparation(vtPreparation* preparation, vtError* error)
 {
+    if (preparation == NULL) {
+        return vtFailMissing(error, "vtEndPreparation", "preparation");
+    }
     const vtError failure = preparation->failure;
     vtAbandonHierarchy(preparation->build);
-    free(preparation);
+    vtFree(preparation);
     return failure.result == vt_ok ? vtSucceed(error) : vtFail(error, failure.result, "%s", failure.message);
 }

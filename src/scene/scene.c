@@ -1,11 +1,9 @@
 // Scenes put together, checked and taken apart.
-#include <float.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/math.h"
+#include "base/memory.h"
 #include "mesh/height_field.h"
 #include "scene/objects.h"
 
@@ -31,26 +29,89 @@ vtTransform vtIdentityTransform(void)
 static bool grow(void* array, uint32_t count, uint32_t more, size_t size)
 {
     void** at = array;
-    void* grown = realloc(*at, ((size_t)count + more + 1) * size);
+    void* grown = vtReallocate(*at, (size_t)count + more, size);
     *at = grown != NULL ? grown : *at;
     return grown != NULL;
 }
 
-vtResult vtCreateMeshScene(vtMesh* mesh, const vtMaterial* material, vtScene* scene, vtError* error)
+vtResult vtScene_AddMesh(vtScene* scene, vtMesh* mesh, uint32_t* index, vtError* error)
 {
-    *scene = (vtScene){0};
-    if (!grow(&scene->meshes, 0, 1, sizeof *scene->meshes) ||
-        !grow(&scene->materials, 0, 1, sizeof *scene->materials) ||
-        !grow(&scene->objects, 0, 1, sizeof *scene->objects)) {
-        vtDestroyScene(scene);
-        return vtFail(error, vt_errorMemory, "scene: out of memory");
+    if (scene == NULL || mesh == NULL || index == NULL) {
+        return vtFailMissing(error, "vtScene_AddMesh",
+                             scene == NULL  ? "scene"
+                             : mesh == NULL ? "mesh"
+                                            : "index");
     }
-    scene->meshes[0] = *mesh;
-    scene->materials[0] = *material;
-    scene->objects[0] = (vtObject){.toWorld = vtIdentityTransform()};
-    scene->meshCount = scene->materialCount = scene->objectCount = 1;
+    if (!grow(&scene->meshes, scene->meshCount, 1, sizeof *scene->meshes)) {
+        return vtFail(error, vt_errorMemory, "scene: out of memory for a mesh more");
+    }
+    *index = scene->meshCount++;
+    scene->meshes[*index] = *mesh;
     *mesh = (vtMesh){0};
     return vtSucceed(error);
+}
+
+vtResult vtScene_AddMaterial(vtScene* scene, const vtMaterial* material, uint32_t* index, vtError* error)
+{
+    if (scene == NULL || material == NULL || index == NULL) {
+        return vtFailMissing(error, "vtScene_AddMaterial",
+                             scene == NULL      ? "scene"
+                             : material == NULL ? "material"
+                                                : "index");
+    }
+    if (!grow(&scene->materials, scene->materialCount, 1, sizeof *scene->materials)) {
+        return vtFail(error, vt_errorMemory, "scene: out of memory for a material more");
+    }
+    *index = scene->materialCount++;
+    scene->materials[*index] = *material;
+    return vtSucceed(error);
+}
+
+vtResult vtScene_AddObject(vtScene* scene, const vtObject* object, uint32_t* index, vtError* error)
+{
+    if (scene == NULL || object == NULL) {
+        return vtFailMissing(error, "vtScene_AddObject", scene == NULL ? "scene" : "object");
+    }
+    if (object->mesh >= scene->meshCount || object->material >= scene->materialCount) {
+        return vtFail(error, vt_errorArgument,
+                      "scene: an object of mesh %u and material %u, but there are %u and %u", object->mesh,
+                      object->material, scene->meshCount, scene->materialCount);
+    }
+    if (!grow(&scene->objects, scene->objectCount, 1, sizeof *scene->objects)) {
+        return vtFail(error, vt_errorMemory, "scene: out of memory for %u objects", scene->objectCount + 1);
+    }
+    scene->objects[scene->objectCount] = *object;
+    if (index != NULL) {
+        *index = scene->objectCount;
+    }
+    ++scene->objectCount;
+    return vtSucceed(error);
+}
+
+vtResult vtCreateMeshScene(vtMesh* mesh, const vtMaterial* material, vtScene* scene, vtError* error)
+{
+    vtScene made = {0};
+    vtObject object = {.toWorld = vtIdentityTransform()};
+    if (scene == NULL) {
+        return vtFailMissing(error, "vtCreateMeshScene", "scene");
+    }
+    *scene = (vtScene){0};
+    if (mesh == NULL || material == NULL) {
+        return vtFailMissing(error, "vtCreateMeshScene", mesh == NULL ? "mesh" : "material");
+    }
+    vtResult result = vtScene_AddMaterial(&made, material, &object.material, error);
+    // The mesh comes last: on failure it is still the caller's.
+    if (result == vt_ok && !grow(&made.objects, 0, 1, sizeof *made.objects)) {
+        result = vtFail(error, vt_errorMemory, "scene: out of memory");
+    }
+    result = result == vt_ok ? vtScene_AddMesh(&made, mesh, &object.mesh, error) : result;
+    result = result == vt_ok ? vtScene_AddObject(&made, &object, NULL, error) : result;
+    if (result != vt_ok) {
+        vtDestroyScene(&made);
+        return result;
+    }
+    *scene = made;
+    return result;
 }
 
 static vtTransform multiply(const vtTransform* a, const vtTransform* b)
@@ -66,8 +127,28 @@ static vtTransform multiply(const vtTransform* a, const vtTransform* b)
     return product;
 }
 
+/// So many that a material's image, an int, could not name them all.
+static bool isTooLong(uint32_t count, uint32_t more)
+{
+    return (uint64_t)count + more > INT32_MAX;
+}
+
 vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* transform, vtError* error)
 {
+    if (scene == NULL || other == NULL || transform == NULL) {
+        return vtFailMissing(error, "vtScene_Append",
+                             scene == NULL   ? "scene"
+                             : other == NULL ? "other"
+                                             : "transform");
+    }
+    if (scene == other || isTooLong(scene->meshCount, other->meshCount) ||
+        isTooLong(scene->materialCount, other->materialCount) ||
+        isTooLong(scene->imageCount, other->imageCount) ||
+        isTooLong(scene->objectCount, other->objectCount) ||
+        isTooLong(scene->cameraCount, other->cameraCount)) {
+        return vtFail(error, vt_errorArgument, "scene: %s be appended to it; give another",
+                      scene == other ? "it cannot itself" : "more than 2^31 things cannot");
+    }
     if (!grow(&scene->meshes, scene->meshCount, other->meshCount, sizeof *scene->meshes) ||
         !grow(&scene->materials, scene->materialCount, other->materialCount, sizeof *scene->materials) ||
         !grow(&scene->images, scene->imageCount, other->imageCount, sizeof *scene->images) ||
@@ -111,298 +192,38 @@ vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* trans
 
 void vtDestroyScene(vtScene* scene)
 {
-    for (uint32_t i = 0; i < scene->meshCount; ++i) {
+    if (scene == NULL) {
+        return;
+    }
+    for (uint32_t i = 0; scene->meshes != NULL && i < scene->meshCount; ++i) {
         vtDestroyMesh(&scene->meshes[i]);
     }
-    for (uint32_t i = 0; i < scene->imageCount; ++i) {
-        free(scene->images[i].pixels);
-        free(scene->images[i].bytes);
+    for (uint32_t i = 0; scene->images != NULL && i < scene->imageCount; ++i) {
+        vtFree(scene->images[i].pixels);
+        vtFree(scene->images[i].bytes);
     }
-    free(scene->meshes);
-    free(scene->materials);
-    free(scene->images);
-    free(scene->objects);
-    free(scene->cameras);
+    vtFree(scene->meshes);
+    vtFree(scene->materials);
+    vtFree(scene->images);
+    vtFree(scene->objects);
+    vtFree(scene->cameras);
     *scene = (vtScene){0};
 }
 
-// ------------------------------------------------------------------------------------------------ objects
-
-/// "object 3 ('cube')", for sentences.
-static void nameObject(const vtScene* scene, uint32_t index, char* text, size_t size)
-{
-    const char* name = scene->objects[index].name;
-    snprintf(text, size, name[0] != '\0' ? "object %u ('%s')" : "object %u", index, name);
-}
-
-static float determinant(const vtTransform* t)
-{
-    const vtVec3 x = vtMakeVec3(t->rows[0]), y = vtMakeVec3(t->rows[1]), z = vtMakeVec3(t->rows[2]);
-    return vtDot(vtCross(x, y), z);
-}
-
-static vtTransform invert(const vtTransform* t, float scale)
-{
-    const vtVec3 x = vtMakeVec3(t->rows[0]), y = vtMakeVec3(t->rows[1]), z = vtMakeVec3(t->rows[2]);
-    const vtVec3 columns[3] = {vtScale(vtCross(y, z), 1.0f / scale), vtScale(vtCross(z, x), 1.0f / scale),
-                               vtScale(vtCross(x, y), 1.0f / scale)};
-    vtTransform inverse;
-    for (int row = 0; row < 3; ++row) {
-        float* r = inverse.rows[row];
-        for (int column = 0; column < 3; ++column) {
-            const vtVec3 c = columns[column];
-            r[column] = row == 0 ? c.x : row == 1 ? c.y : c.z;
-        }
-        r[3] = -(r[0] * t->rows[0][3] + r[1] * t->rows[1][3] + r[2] * t->rows[2][3]);
-    }
-    return inverse;
-}
-
-static bool isFinite(const vtTransform* t)
-{
-    bool finite = true;
-    for (int i = 0; i < 12; ++i) {
-        finite = finite && isfinite(t->rows[i / 4][i % 4]);
-    }
-    return finite;
-}
-
-/// Six times the volume that the surface encloses, without sign; double: sums of many small parts.
-static double volumeOf(const vtPlacedObject* placed)
-{
-    const vtMesh* mesh = placed->mesh;
-    if (mesh->heights != NULL) {
-        return fabs(6.0 * vtHeightField_Volume(mesh->heights) * (double)determinant(&placed->toWorld));
-    }
-    const vtVec3 origin = vtMakeVec3(mesh->positions);
-    double sum = 0.0;
-    for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
-        const vtVec3 a = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), origin);
-        const vtVec3 b = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 1]), origin);
-        const vtVec3 c = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 2]), origin);
-        sum += (double)vtDot(vtCross(a, b), c);
-    }
-    return fabs(sum * (double)determinant(&placed->toWorld));
-}
-
-/// The box of the eight corners of the box from a to b, own coordinates.
-static void boundObject(vtPlacedObject* placed, vtVec3 a, vtVec3 b)
-{
-    placed->low = (vtVec3){FLT_MAX, FLT_MAX, FLT_MAX};
-    placed->high = (vtVec3){-FLT_MAX, -FLT_MAX, -FLT_MAX};
-    for (int corner = 0; corner < 8; ++corner) {
-        const vtVec3 p = {corner & 1 ? b.x : a.x, corner & 2 ? b.y : a.y, corner & 4 ? b.z : a.z};
-        const vtVec3 q = vtTransformPoint(&placed->toWorld, p);
-        placed->low =
-            (vtVec3){fminf(placed->low.x, q.x), fminf(placed->low.y, q.y), fminf(placed->low.z, q.z)};
-        placed->high =
-            (vtVec3){fmaxf(placed->high.x, q.x), fmaxf(placed->high.y, q.y), fmaxf(placed->high.z, q.z)};
-    }
-}
-
-static float absorb(float color, float distance)
-{
-    return distance > 0.0f ? -logf(vtClamp(color, 1e-6f, 1.0f)) / distance : 0.0f;
-}
-
-static vtResult placeObject(const vtScene* scene, uint32_t index, vtPlacedObject* placed, vtError* error)
-{
-    const vtObject* object = &scene->objects[index];
-    char name[96];
-    nameObject(scene, index, name, sizeof name);
-    if (object->mesh >= scene->meshCount || object->material >= scene->materialCount) {
-        return vtFail(error, vt_errorGeometry,
-                      "scene: %s has mesh %u and material %u, but there are %u and %u", name, object->mesh,
-                      object->material, scene->meshCount, scene->materialCount);
-    }
-    const vtMaterial* material = &scene->materials[object->material];
-    const vtTransform* t = &object->toWorld;
-    const float scale = determinant(t);
-    const float size = vtLength(vtMakeVec3(t->rows[0])) * vtLength(vtMakeVec3(t->rows[1])) *
-                       vtLength(vtMakeVec3(t->rows[2]));
-    if (!isFinite(t) || !(fabsf(scale) > 1e-6f * size) || !isnormal(scale)) {
-        return vtFail(error, vt_errorGeometry,
-                      "scene: %s is scaled to nothing along an axis; give it a scale other than 0", name);
-    }
-    if (!material->opaque && !(material->ior >= 0.25f && material->ior <= 4.0f)) {
-        return vtFail(error, vt_errorArgument,
-                      "scene: %s has an index of refraction of %g; it must be from 0.25 to 4", name,
-                      (double)material->ior);
-    }
-    const vtVec3 color = material->attenuationColor;
-    const float distance = material->attenuationDistance;
-    *placed = (vtPlacedObject){
-        .mesh = &scene->meshes[object->mesh],
-        .material = material,
-        .meshIndex = object->mesh,
-        .object = index,
-        .toWorld = *t,
-        .toObject = invert(t, scale),
-        .absorption = {absorb(color.x, distance), absorb(color.y, distance), absorb(color.z, distance)},
-        .mirrored = scale < 0.0f,
-    };
-    boundObject(placed, placed->mesh->boundsMin, placed->mesh->boundsMax);
-    return vt_ok;
-}
-
-/// What objects are sorted by; the last ones only so that no order of the scene's matters.
-typedef struct Rank {
-    bool opaque;
-    int priority;
-    double volume; // steps of a logarithm
-    vtVec3 low, high;
-    float ior;
-    vtPlacedObject placed;
-} Rank;
-
-/// Instances turned another way have the same volume but for rounding: it counts in steps of 0.03 %.
-static double roundVolume(double volume)
-{
-    return volume > 0.0 ? round(2048.0 * log2(volume)) : -HUGE_VAL;
-}
-
-static int compareNumbers(double a, double b)
-{
-    return (a > b) - (a < b);
-}
-
-static int compareRanks(const void* left, const void* right)
-{
-    const Rank *a = left, *b = right;
-    const double differences[] = {
-        (double)(a->opaque - b->opaque),
-        compareNumbers((double)b->priority, (double)a->priority),
-        compareNumbers(a->volume, b->volume),
-        compareNumbers((double)a->low.x, (double)b->low.x),
-        compareNumbers((double)a->low.y, (double)b->low.y),
-        compareNumbers((double)a->low.z, (double)b->low.z),
-        compareNumbers((double)a->high.x, (double)b->high.x),
-        compareNumbers((double)a->high.y, (double)b->high.y),
-        compareNumbers((double)a->high.z, (double)b->high.z),
-        compareNumbers((double)a->ior, (double)b->ior),
-        (double)a->placed.object - (double)b->placed.object,
-    };
-    size_t i = 0;
-    while (i + 1 < sizeof differences / sizeof differences[0] && differences[i] == 0.0) {
-        ++i;
-    }
-    return compareNumbers(differences[i], 0.0);
-}
-
-static bool liesInside(const vtPlacedObject* inner, const vtPlacedObject* outer)
-{
-    return inner->low.x > outer->low.x && inner->low.y > outer->low.y && inner->low.z > outer->low.z &&
-           inner->high.x < outer->high.x && inner->high.y < outer->high.y && inner->high.z < outer->high.z;
-}
-
-static vtResult checkVolumes(const vtScene* scene, const vtPlacedObject* placed, uint32_t glassCount,
-                             vtError* error)
-{
-    for (uint32_t i = 0; i < glassCount; ++i) {
-        for (uint32_t k = 0; k < glassCount && placed[i].mesh->openEdgeCount > 0; ++k) {
-            if (k != i && liesInside(&placed[i], &placed[k])) {
-                char inner[96], outer[96];
-                nameObject(scene, placed[i].object, inner, sizeof inner);
-                nameObject(scene, placed[k].object, outer, sizeof outer);
-                return vtFail(
-                    error, vt_errorGeometry,
-                    "scene: %s has no volume (%u open edges) and lies inside %s, so nothing says what "
-                    "is between them; close it or make it opaque",
-                    inner, placed[i].mesh->openEdgeCount, outer);
-            }
-        }
-    }
-    return vt_ok;
-}
-
-vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error)
-{
-    const uint32_t count = scene->objectCount;
-    *placed = NULL;
-    *glassCount = 0;
-    if (count == 0 || count > VT_MAX_OBJECTS) {
-        return vtFail(error, vt_errorGeometry, "scene: it has %u objects; it must have 1 to %d", count,
-                      VT_MAX_OBJECTS);
-    }
-    Rank* ranks = calloc(count, sizeof *ranks);
-    *placed = calloc(count, sizeof **placed);
-    vtResult result = ranks != NULL && *placed != NULL
-                          ? vt_ok
-                          : vtFail(error, vt_errorMemory, "scene: out of memory for %u objects", count);
-    for (uint32_t i = 0; i < count && result == vt_ok; ++i) {
-        Rank* rank = &ranks[i];
-        result = placeObject(scene, i, &rank->placed, error);
-        if (result == vt_ok) {
-            rank->opaque = rank->placed.material->opaque;
-            rank->priority = scene->objects[i].priority;
-            rank->volume = roundVolume(rank->opaque ? 0.0 : volumeOf(&rank->placed));
-            rank->low = rank->placed.low;
-            rank->high = rank->placed.high;
-            rank->ior = rank->placed.material->ior;
-            *glassCount += !rank->opaque;
-        }
-    }
-    if (result == vt_ok) {
-        qsort(ranks, count, sizeof *ranks, compareRanks);
-        for (uint32_t i = 0; i < count; ++i) {
-            (*placed)[i] = ranks[i].placed;
-        }
-        result = checkVolumes(scene, *placed, *glassCount, error);
-    }
-    free(ranks);
-    if (result != vt_ok) {
-        free(*placed);
-        *placed = NULL;
-    }
-    return result;
-}
-
-/// Whether an object made of the mesh is opaque, or else one that is not.
-static bool isUsed(const vtScene* scene, uint32_t mesh, bool opaque)
-{
-    bool used = false;
-    for (uint32_t i = 0; i < scene->objectCount; ++i) {
-        const vtObject* object = &scene->objects[i];
-        used = used || (object->mesh == mesh && scene->materials[object->material].opaque == opaque);
-    }
-    return used;
-}
-
-void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world)
-{
-    const float to[3] = {world.x, world.y, world.z};
-    for (int row = 0; row < 3; ++row) {
-        float* r = placed->toWorld.rows[row];
-        r[3] = (float)((double)r[0] * (double)own.x + (double)r[1] * (double)own.y +
-                       (double)r[2] * (double)own.z + (double)r[3] - (double)to[row]);
-    }
-    placed->toObject = invert(&placed->toWorld, determinant(&placed->toWorld));
-    boundObject(placed, vtSub(placed->mesh->boundsMin, own), vtSub(placed->mesh->boundsMax, own));
-}
-
-uint32_t vtScene_Relief(const vtScene* scene)
-{
-    uint32_t mesh = 0;
-    while (mesh < scene->meshCount && (scene->meshes[mesh].heights == NULL || !isUsed(scene, mesh, false))) {
-        ++mesh;
-    }
-    return mesh;
-}
-
-vtResult vtPrepareScene(vtScene* scene, vtTechnique technique, bool* changed, vtError* error)
+vtResult vtScene_Complete(vtScene* scene, bool heights, bool innerDistances, bool* changed, vtError* error)
 {
     const uint32_t relief = vtScene_Relief(scene);
     bool any = false;
     vtResult result = vtSucceed(error);
-    for (uint32_t i = 0; i < scene->meshCount && result == vt_ok; ++i) {
+    for (uint32_t i = 0; scene->meshes != NULL && i < scene->meshCount && result == vt_ok; ++i) {
         vtMesh* mesh = &scene->meshes[i];
-        const bool byHeights = technique == vt_techniqueHeightField && i == relief && !isUsed(scene, i, true);
+        const bool byHeights = heights && i == relief && !vtScene_Uses(scene, i, true);
         if (mesh->heights != NULL && mesh->indexCount == 0 && !byHeights) {
             result = vtTriangulateRelief(mesh, error);
             any = true;
         }
-        if (result == vt_ok && technique == vt_techniqueWyman && mesh->innerDistances == NULL &&
-            isUsed(scene, i, false)) {
+        if (result == vt_ok && innerDistances && mesh->innerDistances == NULL &&
+            vtScene_Uses(scene, i, false)) {
             result = vtComputeInnerDistances(mesh, error);
             any = true;
         }
@@ -418,53 +239,6 @@ vtResult vtValidateScene(const vtScene* scene, vtError* error)
     vtPlacedObject* placed;
     uint32_t glassCount;
     const vtResult result = vtPlaceObjects(scene, &placed, &glassCount, error);
-    free(placed);
+    vtFree(placed);
     return result == vt_ok ? vtSucceed(error) : result;
-}
-
-bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point)
-{
-    const vtVec3 low = placed->low, high = placed->high;
-    if (point.x < low.x || point.y < low.y || point.z < low.z || point.x > high.x || point.y > high.y ||
-        point.z > high.z) {
-        return false;
-    }
-    const vtMesh* mesh = placed->mesh;
-    const vtVec3 p = vtTransformPoint(&placed->toObject, point);
-    if (mesh->heights != NULL) {
-        return vtHeightField_Contains(mesh->heights, p);
-    }
-    // The winding number, by the triangles' solid angles (van Oosterom & Strackee 1983).
-    double sum = 0.0;
-    for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
-        const vtVec3 a = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), p);
-        const vtVec3 b = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 1]), p);
-        const vtVec3 c = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 2]), p);
-        const float la = vtLength(a), lb = vtLength(b), lc = vtLength(c);
-        const float across = la * lb * lc + vtDot(a, b) * lc + vtDot(b, c) * la + vtDot(c, a) * lb;
-        sum += 2.0 * (double)atan2f(vtDot(a, vtCross(b, c)), across);
-    }
-    return sum > 2.0 * (double)VT_PI; // half of a full turn's 4 pi
-}
-
-void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boundsMax)
-{
-    bool anyGlass = false;
-    for (uint32_t i = 0; i < scene->objectCount; ++i) {
-        anyGlass = anyGlass || !scene->materials[scene->objects[i].material].opaque;
-    }
-    vtVec3 low = {FLT_MAX, FLT_MAX, FLT_MAX}, high = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
-    for (uint32_t i = 0; i < scene->objectCount; ++i) {
-        const vtObject* object = &scene->objects[i];
-        if (anyGlass && scene->materials[object->material].opaque) {
-            continue;
-        }
-        vtPlacedObject placed = {.mesh = &scene->meshes[object->mesh], .toWorld = object->toWorld};
-        boundObject(&placed, placed.mesh->boundsMin, placed.mesh->boundsMax);
-        low = (vtVec3){fminf(low.x, placed.low.x), fminf(low.y, placed.low.y), fminf(low.z, placed.low.z)};
-        high = (vtVec3){fmaxf(high.x, placed.high.x), fmaxf(high.y, placed.high.y),
-                        fmaxf(high.z, placed.high.z)};
-    }
-    *boundsMin = low;
-    *boundsMax = high;
 }

@@ -1,8 +1,8 @@
 // Shapes with closed formulas for position and normal: sphere, torus and knot.
 #include "base/math.h"
+#include "base/memory.h"
 #include "shapes/shapes.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 // ------------------------------------------------------------------------------------------------ sphere
@@ -75,7 +75,7 @@ static void subdivide(vtShapeData* shape, Midpoint (*midpoints)[sphereValence])
 /// A subdivided icosahedron: no poles, and nearly equal triangles all over.
 bool vtBuildSphere(vtShapeData* shape)
 {
-    Midpoint(*midpoints)[sphereValence] = calloc(sphereCoarse, sizeof *midpoints);
+    Midpoint(*midpoints)[sphereValence] = vtAllocateZeroed(sphereCoarse, sizeof *midpoints);
     bool built = midpoints != NULL && vtShape_Reserve(shape, sphereVertices, sphereTriangles);
     if (built) {
         addIcosahedron(shape);
@@ -84,7 +84,7 @@ bool vtBuildSphere(vtShapeData* shape)
             subdivide(shape, midpoints);
         }
     }
-    free(midpoints);
+    vtFree(midpoints);
     return built;
 }
 

@@ -6,15 +6,9 @@
 #include <string.h>
 
 #include "base/about.h"
+#include "base/error.h"
+#include "scene/objects.h"
 #include "shaders.h"
-
-// The texture units of the refract pass, the same for every technique (passes/refract.c binds them); the last
-// four are the paths so far of objects in order.
-#define VT_REFRACT_SAMPLERS                                                                                  \
-    {                                                                                                        \
-        "u_surface", "u_innerDistances", "u_layerDepths", "u_layerNormals", "u_mergedDepths", "u_objects",   \
-            "u_records", "u_objectTree", "u_paths", "u_ends", "u_lights", "u_asides"                         \
-    }
 
 // What `layered` has in common whatever is around, with one of its searches.
 #define VT_LAYERED_CHUNKS(search)                                                                            \
@@ -25,22 +19,26 @@
 // Its programs that follow paths: through all glass, past opaque things, through one object.
 #define VT_LAYERED_ANY(title, search)                                                                        \
     {                                                                                                        \
-        .name = title, .vertex = {&vtChunk_screen_vert},                                                     \
-        .fragment = {VT_LAYERED_CHUNKS(search), &vtChunk_refract_layered_frag},                              \
-        .samplers = VT_REFRACT_SAMPLERS                                                                      \
+        .name = title, .vertex = {&vtChunk_screen_vert}, .fragment = {                                       \
+            VT_LAYERED_CHUNKS(search),                                                                       \
+            &vtChunk_refract_layered_frag                                                                    \
+        }                                                                                                    \
     }
 #define VT_LAYERED_OPAQUE(title, search)                                                                     \
     {                                                                                                        \
-        .name = title, .vertex = {&vtChunk_screen_vert},                                                     \
-        .fragment = {VT_LAYERED_CHUNKS(search), &vtChunk_with_opaque,   &vtChunk_records,                    \
-                     &vtChunk_object_tree,      &vtChunk_search_opaque, &vtChunk_refract_layered_frag},      \
-        .samplers = VT_REFRACT_SAMPLERS                                                                      \
+        .name = title, .vertex = {&vtChunk_screen_vert}, .fragment = {                                       \
+            VT_LAYERED_CHUNKS(search),                                                                       \
+            &vtChunk_with_opaque,                                                                            \
+            &vtChunk_records,                                                                                \
+            &vtChunk_object_tree,                                                                            \
+            &vtChunk_search_opaque,                                                                          \
+            &vtChunk_refract_layered_frag                                                                    \
+        }                                                                                                    \
     }
 #define VT_LAYERED_ORDERED(title, search)                                                                    \
     {                                                                                                        \
         .name = title, .vertex = {&vtChunk_screen_vert},                                                     \
-        .fragment = {VT_LAYERED_CHUNKS(search), &vtChunk_refract_ordered_frag},                              \
-        .samplers = VT_REFRACT_SAMPLERS, .uniforms = {                                                       \
+        .fragment = {VT_LAYERED_CHUNKS(search), &vtChunk_refract_ordered_frag}, .uniforms = {                \
             "u_object"                                                                                       \
         }                                                                                                    \
     }
@@ -61,8 +59,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                        .vertex = {&vtChunk_screen_vert},
                                        .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
                                                     &vtChunk_write_path, &vtChunk_kay,
-                                                    &vtChunk_refract_kay_linear_frag},
-                                       .samplers = VT_REFRACT_SAMPLERS},
+                                                    &vtChunk_refract_kay_linear_frag}},
         },
     [vt_techniqueKayNonlinear] =
         {
@@ -79,8 +76,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                        .vertex = {&vtChunk_screen_vert},
                                        .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
                                                     &vtChunk_write_path, &vtChunk_kay, &vtChunk_transparency,
-                                                    &vtChunk_refract_kay_nonlinear_frag},
-                                       .samplers = VT_REFRACT_SAMPLERS},
+                                                    &vtChunk_refract_kay_nonlinear_frag}},
         },
     [vt_techniqueKayThickness] =
         {
@@ -96,8 +92,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                        .vertex = {&vtChunk_screen_vert},
                                        .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
                                                     &vtChunk_write_path, &vtChunk_kay, &vtChunk_transparency,
-                                                    &vtChunk_refract_kay_thickness_frag},
-                                       .samplers = VT_REFRACT_SAMPLERS},
+                                                    &vtChunk_refract_kay_thickness_frag}},
         },
     [vt_techniqueSingle] =
         {
@@ -112,8 +107,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                        .fragment = {&vtChunk_octahedral, &vtChunk_media, &vtChunk_path,
                                                     &vtChunk_write_path, &vtChunk_objects, &vtChunk_optics,
                                                     &vtChunk_cross_surface, &vtChunk_first_surface,
-                                                    &vtChunk_refract_single_frag},
-                                       .samplers = VT_REFRACT_SAMPLERS},
+                                                    &vtChunk_refract_single_frag}},
         },
     [vt_techniqueWyman] =
         {
@@ -134,8 +128,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                                     &vtChunk_optics, &vtChunk_cross_surface,
                                                     &vtChunk_first_surface, &vtChunk_layer_space,
                                                     &vtChunk_layers_of_all,
-                                                    &vtChunk_second_layer, &vtChunk_refract_wyman_frag},
-                                       .samplers = VT_REFRACT_SAMPLERS},
+                                                    &vtChunk_second_layer, &vtChunk_refract_wyman_frag}},
         },
     [vt_techniqueOliveira] =
         {
@@ -154,8 +147,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                                                     &vtChunk_optics, &vtChunk_cross_surface,
                                                     &vtChunk_first_surface, &vtChunk_layer_space,
                                                     &vtChunk_layers_of_all,
-                                                    &vtChunk_second_layer, &vtChunk_refract_oliveira_frag},
-                                       .samplers = VT_REFRACT_SAMPLERS},
+                                                    &vtChunk_second_layer, &vtChunk_refract_oliveira_frag}},
         },
     [vt_techniqueLayered] =
         {
@@ -209,34 +201,31 @@ const vtTechniqueRow* vtTechnique_Row(vtTechnique technique)
     return &rows[technique];
 }
 
-vtVariant vtFrame_Variant(const vtFrame* frame, bool opaque)
-{
-    const vtProgramDef* defs = vtTechnique_Row(frame->technique)->refract;
-    const bool cells = frame->search == vt_searchCells && defs[vt_variantCells].name != NULL;
-    const vtVariant any = cells ? vt_variantCells : vt_variantAny;
-    const vtVariant ordered = any + vt_variantOrdered, withOpaque = any + vt_variantOpaque;
-    if (frame->multi == vt_multiOrdered && defs[ordered].name != NULL) {
-        return ordered;
-    }
-    return opaque && defs[withOpaque].name != NULL ? withOpaque : any;
-}
-
-int vtFrame_LayerCount(const vtFrame* frame)
-{
-    int layers = vtTechnique_Row(frame->technique)->layers;
-    return layers == VT_LAYERS_OF_FRAME ? vtResolveFrame(frame).layers : layers;
-}
-
 const vtTechniqueInfo* vtTechnique_Info(vtTechnique technique)
 {
-    return &vtTechnique_Row(technique)->info;
+    return technique >= 0 && technique < vt_techniqueCount ? &rows[technique].info : NULL;
 }
 
 vtTechnique vtFindTechnique(const char* id)
 {
     int technique = 0;
-    while (technique < vt_techniqueCount && strcmp(rows[technique].info.id, id) != 0) {
+    while (technique < vt_techniqueCount && (id == NULL || strcmp(rows[technique].info.id, id) != 0)) {
         ++technique;
     }
     return (vtTechnique)technique;
+}
+
+vtResult vtPrepareScene(vtScene* scene, vtTechnique technique, bool* changed, vtError* error)
+{
+    if (changed != NULL) {
+        *changed = false;
+    }
+    if (scene == NULL) {
+        return vtFailMissing(error, "vtPrepareScene", "scene");
+    }
+    if (technique < 0 || technique >= vt_techniqueCount) {
+        return vtFail(error, vt_errorArgument, "technique %d is not in the table", (int)technique);
+    }
+    const vtTechniqueRow* row = vtTechnique_Row(technique);
+    return vtScene_Complete(scene, row->heights, row->innerDistances, changed, error);
 }

@@ -1,7 +1,12 @@
 #pragma once
 
 #include "gl/program.h"
+#include "scene/camera.h"
 #include "vitrine.h"
+
+#ifndef __EMSCRIPTEN__
+#define VT_WITH_CELLS ///< vt_searchCells; web pages search in steps whatever vtFrame.search says
+#endif
 
 /// The frustum that a technique's layers lie in.
 typedef enum vtLayerSpace {
@@ -52,6 +57,18 @@ static inline bool vtVariant_IsOrdered(vtVariant variant)
 
 /// Layers that the frame's technique peels.
 int vtFrame_LayerCount(const vtFrame* frame);
+
+/// Is the frame drawn over the host's picture, or does it show it behind the glass? A build for web pages,
+/// whose element has its canvas to itself, goes without (vtRenderer_Draw says so).
+static inline bool vtFrame_IsOverlay(const vtFrame* frame)
+{
+    return VT_WITH_HOST && frame->overlay;
+}
+
+static inline bool vtFrame_HasHost(const vtFrame* frame)
+{
+    return VT_WITH_HOST && frame->hostColor != 0;
+}
 
 /// Has the frame paths without Fresnel reflection?
 static inline bool vtFrame_IsStrict(const vtFrame* frame)

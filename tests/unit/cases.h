@@ -22,3 +22,16 @@ static inline vtVec3 onSphere(uint32_t x)
     float z = 2.0f * unit(x) - 1.0f, a = 6.2831853f * unit(x + 77777u), r = sqrtf(1.0f - z * z);
     return (vtVec3){r * cosf(a), z, r * sinf(a)};
 }
+
+/// One path by a tracer of its own.
+static inline vtResult tracePath(const vtScene* scene, const vtFrame* frame, float x, float y, vtPath* path,
+                                 vtError* error)
+{
+    vtTracer* tracer;
+    vtResult result = vtCreateTracer(scene, &tracer, error);
+    if (result == vt_ok) {
+        result = vtTracer_Path(tracer, frame, x, y, path, error);
+        vtDestroyTracer(tracer);
+    }
+    return result;
+}

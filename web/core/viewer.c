@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "technique/settings.h"
 #include "technique/technique.h"
 
 static const char* sentence(const vtViewer* viewer, vtResult result)
@@ -23,6 +24,7 @@ EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height)
         viewer->frame = vtDefaultFrame();
         viewer->frame.width = width;
         viewer->frame.height = height;
+        viewer->wanted = viewer->frame;
         viewer->sample = VT_MAX_SAMPLES; // nothing to draw yet
         vtRendererDef def = {NULL};      // on the web GL is linked
         vtCreateRenderer(&def, &viewer->renderer, &viewer->error);
@@ -34,6 +36,7 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Destroy(vtViewer* viewer)
 {
     if (viewer != NULL) {
         vtDestroyRenderer(viewer->renderer);
+        vtDestroyTracer(viewer->tracer);
         vtDestroyScene(&viewer->scene);
         vtViewer_Begin(viewer);
         vtDestroyMesh(&viewer->kept.unit);
@@ -98,59 +101,34 @@ static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
     return result;
 }
 
-static int least(int a, int b)
+/// A setting, not a vector, by its name in the table of settings; vtViewer_SetGlass takes it over.
+EMSCRIPTEN_KEEPALIVE void vtViewer_Set(vtViewer* viewer, const char* name, double value)
 {
-    return a < b ? a : b;
+    vtSetting_Set(vtFindSetting(name), &viewer->wanted, value);
 }
 
-/// No more work a pixel than preset low asks for.
-static void lessen(vtFrame* frame)
+/// Draws with what vtViewer_Set was told and a technique by its id, empty: the scene decides. A layer beyond
+/// those there are is the last one. With `lessened` it is drawn with no more than preset low asks for.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, bool lessened)
 {
-    const vtFrame full = vtResolveFrame(frame);
-    vtFrame low = full;
-    low.preset = vt_presetLow;
-    low.layers = low.steps = low.maxEvents = 0;
-    low = vtResolveFrame(&low);
-    frame->layers = least(full.layers, low.layers);
-    frame->steps = least(full.steps, low.steps);
-    frame->maxEvents = least(full.maxEvents, low.maxEvents);
-    const int branches = least(vtFrame_BranchCount(&full), vtFrame_BranchCount(&low));
-    frame->branches = branches > 0 ? branches : -1;
-}
-
-/// Technique by its id, empty: the scene decides, and the settings of the glass, ranges as in vtFrame, 0
-/// where the preset or the object decides; `output` is a vtOutput. A layer beyond those there are is the last
-/// one. With `lessened` it is drawn with less.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGlass(vtViewer* viewer, const char* technique, float ior,
-                                                   int preset, int layers, int steps, int maxEvents,
-                                                   int output, int layer, float exposure, bool transparent,
-                                                   int samples, bool lessened, bool fresnel)
-{
-    vtFrame frame = viewer->frame;
+    vtFrame frame = viewer->wanted;
+    frame.view = viewer->frame.view;
+    frame.width = viewer->frame.width;
+    frame.height = viewer->frame.height;
     frame.technique = *technique == '\0' ? vtViewer_UsualTechnique(viewer) : vtFindTechnique(technique);
     if (frame.technique == vt_techniqueCount) {
-        vtFail(&viewer->error, vt_errorArgument, "technique '%s' is not in the table", technique);
-        return viewer->error.message;
+        return sentence(viewer, vtFail(&viewer->error, vt_errorArgument, "technique '%s' is not in the table",
+                                       technique));
     }
-    frame.ior = ior;
-    frame.fresnel = fresnel;
-    frame.preset = (vtPreset)preset;
-    frame.layers = layers;
-    frame.steps = steps;
-    frame.maxEvents = maxEvents;
-    frame.output = (vtOutput)output;
-    frame.branches = 0;
     frame.layer = 0;
-    frame.exposure = exposure;
-    frame.transparentBackground = transparent;
-    frame.samples = samples;
     vtResult result = vtValidateFrame(&frame, &viewer->error);
     if (result == vt_ok) {
         if (lessened) {
-            lessen(&frame);
+            vtFrame_Lessen(&frame, vt_presetLow);
         }
-        const int count = vtFrame_LayerCount(&frame);
-        frame.layer = count > 0 ? least(layer, count - 1) : 0;
+        const int last = vtFrame_LayerCount(&frame) - 1;
+        const int layer = viewer->wanted.layer < last ? viewer->wanted.layer : last;
+        frame.layer = last >= 0 ? layer : 0;
         result = showFrame(viewer, &frame);
     }
     return sentence(viewer, result);
@@ -254,7 +232,10 @@ EMSCRIPTEN_KEEPALIVE const uint8_t* vtViewer_Image(vtViewer* viewer, int width, 
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Path(vtViewer* viewer, float x, float y)
 {
     vtPath path;
-    if (vtTracePath(&viewer->scene, &viewer->frame, x, y, &path, &viewer->error) != vt_ok) {
+    if (viewer->tracer == NULL && vtCreateTracer(&viewer->scene, &viewer->tracer, &viewer->error) != vt_ok) {
+        return NULL;
+    }
+    if (vtTracer_Path(viewer->tracer, &viewer->frame, x, y, &path, &viewer->error) != vt_ok) {
         return NULL;
     }
     size_t used = 0, size = sizeof viewer->path;

@@ -17,10 +17,12 @@ typedef struct vtViewer {
     vtScene scene;              ///< on the GPU as well; kept for its numbers
     vtScene next;               ///< being put together
     vtPreparation* preparation; ///< of that; NULL: not begun
+    vtTracer* tracer;           ///< of `scene`, with which it goes; NULL: no path was asked for
     vtKeptRelief kept;
-    vtFrame frame; ///< of the canvas; each tick draws one of its samples
-    int sample;    ///< the next one
-    bool changed;  ///< since the frame drawn last
+    vtFrame frame;  ///< of the canvas; each tick draws one of its samples
+    vtFrame wanted; ///< the settings that vtViewer_Set was told, for vtViewer_SetGlass
+    int sample;     ///< the next one
+    bool changed;   ///< since the frame drawn last
     int drawCount;
     uint8_t* image; ///< the last one of vtViewer_Image
     vtError error;
@@ -53,6 +55,9 @@ vtSceneFacts vtViewer_SceneFacts(const vtViewer* viewer);
 
 /// An object's line of text about something of that kind; empty: as it is.
 vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec);
+
+/// Moves what was made into the scene that was begun.
+vtResult vtViewer_Add(vtViewer* viewer, vtScene* made, const vtObjectSpec* spec);
 
 /// Move a mesh, a built-in relief or the contents of a .hdr or .pfm into the scene that was begun.
 vtResult vtViewer_AddMesh(vtViewer* viewer, vtMesh* mesh, const char* name, const vtObjectSpec* spec);

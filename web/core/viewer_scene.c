@@ -1,9 +1,7 @@
 // What a viewer shows: a scene put together of shapes, reliefs and models, its pictures, its cameras. The
 // calls are like those of viewer.c.
 #include <emscripten.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/error.h"
 #include "core/viewer.h"
@@ -16,7 +14,6 @@ static const char* sentence(const vtViewer* viewer, vtResult result)
     return result == vt_ok ? NULL : viewer->error.message;
 }
 
-/// Begins a scene; nothing of it is seen before vtViewer_Show.
 static void endPreparation(vtViewer* viewer)
 {
     if (viewer->preparation != NULL) {
@@ -25,42 +22,11 @@ static void endPreparation(vtViewer* viewer)
     }
 }
 
+/// Begins a scene; nothing of it is seen before vtViewer_Show.
 EMSCRIPTEN_KEEPALIVE void vtViewer_Begin(vtViewer* viewer)
 {
     endPreparation(viewer);
     vtDestroyScene(&viewer->next);
-}
-
-vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec)
-{
-    *spec = (vtObjectSpec){0};
-    const vtResult result =
-        *text == '\0' ? vt_ok : vtParseObject(text, "objects", false, spec, &viewer->error);
-    return result == vt_ok ? vtObjectSpec_Check(spec, kind, "objects", &viewer->error) : result;
-}
-
-/// Moves what was made into the scene that was begun.
-static vtResult add(vtViewer* viewer, vtScene* made, const vtObjectSpec* spec)
-{
-    vtObjectSpec_Apply(spec, made);
-    const vtTransform place = vtObjectSpec_Place(spec);
-    const vtResult result = vtScene_Append(&viewer->next, made, &place, &viewer->error);
-    vtDestroyScene(made);
-    return result;
-}
-
-vtResult vtViewer_AddMesh(vtViewer* viewer, vtMesh* mesh, const char* name, const vtObjectSpec* spec)
-{
-    vtScene made = {0};
-    vtMaterial material = vtDefaultMaterial();
-    material.opaque = mesh->heights == NULL && strcmp(name, "plane") == 0; // it has no volume
-    vtResult result = vtCreateMeshScene(mesh, &material, &made, &viewer->error);
-    vtDestroyMesh(mesh);
-    if (result == vt_ok) {
-        snprintf(made.objects[0].name, sizeof made.objects[0].name, "%.63s", name);
-        result = add(viewer, &made, spec);
-    }
-    return result;
 }
 
 /// Adds a built-in shape or relief by name.
@@ -93,7 +59,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* by
     vtResult result = vtViewer_ReadSpec(viewer, text, vt_kindMesh, &spec);
     result = result == vt_ok ? vtLoadScene(&def, &made, &viewer->error) : result;
     free(bytes);
-    return sentence(viewer, result == vt_ok ? add(viewer, &made, &spec) : result);
+    return sentence(viewer, result == vt_ok ? vtViewer_Add(viewer, &made, &spec) : result);
 }
 
 /// Pictures of the scene that was begun.
@@ -114,12 +80,12 @@ EMSCRIPTEN_KEEPALIVE int vtViewer_ImageSize(const vtViewer* viewer, int index)
     return (int)viewer->next.images[index].size;
 }
 
-/// A picture that the browser has decoded, RGBA, top row first.
+/// A picture that the browser has decoded, RGBA, top row first, from malloc, which a page's allocator is.
 EMSCRIPTEN_KEEPALIVE void vtViewer_SetImage(vtViewer* viewer, int index, uint8_t* pixels, int width,
                                             int height)
 {
     vtImage* image = &viewer->next.images[index];
-    free(image->pixels);
+    vtFree(image->pixels);
     image->pixels = pixels;
     image->width = width;
     image->height = height;
@@ -154,6 +120,8 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Show(vtViewer* viewer)
         result = vtRenderer_SetScene(viewer->renderer, &viewer->next, &viewer->error);
     }
     if (result == vt_ok) {
+        vtDestroyTracer(viewer->tracer);
+        viewer->tracer = NULL;
         vtDestroyScene(&viewer->scene);
         viewer->scene = viewer->next;
         viewer->next = (vtScene){0};
@@ -173,10 +141,10 @@ static void dropTriangles(vtScene* scene)
     for (uint32_t i = 0; i < scene->meshCount; ++i) {
         vtMesh* mesh = &scene->meshes[i];
         if (mesh->heights != NULL) {
-            free(mesh->positions);
-            free(mesh->normals);
-            free(mesh->indices);
-            free(mesh->innerDistances);
+            vtFree(mesh->positions);
+            vtFree(mesh->normals);
+            vtFree(mesh->indices);
+            vtFree(mesh->innerDistances);
             mesh->positions = mesh->normals = mesh->innerDistances = NULL;
             mesh->indices = NULL;
             mesh->vertexCount = mesh->indexCount = 0;
@@ -222,7 +190,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenModel(vtViewer* viewer, uint8_t* b
 /// Looks at the whole scene from the default direction, for a picture of that aspect.
 EMSCRIPTEN_KEEPALIVE void vtViewer_ResetView(vtViewer* viewer, float aspect)
 {
-    viewer->frame.view = vtFrameScene(&viewer->scene, viewer->frame.view.fovY, aspect);
+    viewer->frame.view = vtViewOfScene(&viewer->scene, viewer->frame.view.fovY, aspect);
     viewer->changed = true;
 }
 

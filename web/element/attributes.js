@@ -1,5 +1,6 @@
 // The one table of what can be written on the element. Observed attributes, properties with reflection, checks
-// and their sentences, and the documentation and types (scripts) all come from it.
+// and their sentences, and the documentation and types (scripts) all come from it. Attributes that are settings
+// of a frame have the ranges and words of the core's table; tests/cli.test.mjs compares them.
 
 /**
  * A row of the table.
@@ -23,12 +24,6 @@ export const patterns = ['ripples', 'hammered', 'fluted', 'lens-array'];
 export const environments = ['studio', 'sky', 'checker'];
 
 const techniques = ['exact', 'heightfield', 'layered', 'oliveira', 'wyman', 'single', 'kay-thickness', 'kay-nonlinear', 'kay-linear'];
-
-/** In vtPreset's order. */
-export const presets = ['low', 'medium', 'high'];
-
-/** What is shown, in vtOutput's order. */
-export const outputs = ['picture', 'analysis', 'layer-depth', 'layer-normal'];
 
 const string = (attribute, description, more) => ({ attribute, type: 'string', default: '', description, ...more });
 const boolean = (attribute, description) => ({ attribute, type: 'boolean', default: false, description });
@@ -61,13 +56,13 @@ export const attributes = [
   oneOf('touch-action', ['pan-y', 'pan-x', 'none'], 'What a finger does to the page rather than to the view.'),
   boolean('disable-zoom', 'Wheel, pinch and + − keys do not change the distance.'),
   number('ior', 1, 4, null, 'Index of refraction of all glass.', { defaultText: "each object's own" }),
-  oneOf('fresnel', ['on', 'off'], 'on: glass reflects where it refracts, by Fresnel; off: only where it must.'),
+  oneOf('fresnel', ['off', 'on'], 'on: glass reflects where it refracts, by Fresnel; off: only where it must.', { default: 'on' }),
   oneOf('technique', techniques, 'How the glass is computed; see `vitrine list`.', { default: null, defaultText: '`exact`; `heightfield` where there is a relief' }),
-  oneOf('preset', presets, 'What layers, steps and max-events are where they are absent, and how often exact follows what glass reflects: never, once or twice. Less work for weak GPUs, more accuracy for strong ones.', { default: 'medium' }),
+  oneOf('preset', ['low', 'medium', 'high'], 'What layers, steps and max-events are where they are absent, and how often exact follows what glass reflects: never, once or twice. Less work for weak GPUs, more accuracy for strong ones.', { default: 'medium' }),
   number('layers', 1, 16, null, 'Depth layers peeled, by the techniques that peel: layered and kay-….', ofPreset),
   number('steps', 1, 1000, null, 'Search steps a segment: layered and oliveira.', ofPreset),
   number('max-events', 1, 64, null, 'Refractions and internal reflections of a path.', ofPreset),
-  oneOf('output', outputs, 'picture; analysis: paths by colour (red two refractions, blue more, green total reflection, grey lost); or depth or normals of one layer.'),
+  oneOf('output', ['picture', 'analysis', 'layer-depth', 'layer-normal'], 'picture; analysis: paths by colour (red two refractions, blue more, green total reflection, grey lost); or depth or normals of one layer.'),
   number('layer', 0, 15, 0, 'Which layer is shown, 0 the nearest.', { integer: true }),
   number('samples', 1, 4096, 64, 'Samples a pixel, for smooth edges: added one a frame once the view rests. 1: a single one, and nothing is added.', { integer: true }),
   oneOf('quality', ['auto', 'high', 'medium', 'low'], 'auto: holds the frame time while moving and draws one full frame at rest; high, medium and low: always 1, 3/4 and 1/2 of the resolution.'),

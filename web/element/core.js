@@ -1,6 +1,6 @@
 // The compiled module, loaded once a page, and one Viewer (web/core/viewer.c) for each canvas.
 import createVitrine from '../vitrine-core.js';
-import { outputs, presets } from './attributes.js';
+import { attributes } from './attributes.js';
 import { openInCore, placePicture } from './picture.js';
 
 /** Browsers keep about 16 contexts; some are left to the rest of the page. */
@@ -122,12 +122,15 @@ export class Viewer {
   }
 
   /**
-   * Settings of the glass (vtViewer_SetGlass); layers, steps and maxEvents null: as the preset says; ior null: each object's own; technique null: as the scene has it.
+   * Settings by their names in the core's table (src/technique/settings.c), a word by its attribute's list; null: as the preset or each object says; technique null: as the scene has it.
    * @returns {string} a sentence, or ''
    */
-  setGlass({ technique, ior, preset, layers, steps, maxEvents, output, layer, exposure, transparent, samples, lessened, fresnel }) {
-    return this.attempt('SetGlass', technique ?? '', ior ?? 0, presets.indexOf(preset), layers ?? 0, steps ?? 0, maxEvents ?? 0, outputs.indexOf(output),
-      layer, exposure, Number(transparent), samples, Number(lessened), Number(fresnel !== 'off'));
+  setGlass({ technique, lessened, ...settings }) {
+    for (const [name, value] of Object.entries(settings)) {
+      const words = attributes.find(({ attribute }) => attribute === name)?.values;
+      this.call('Set', name, words ? words.indexOf(value) : Number(value));
+    }
+    return this.attempt('SetGlass', technique ?? '', Number(lessened));
   }
 
   /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */

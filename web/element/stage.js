@@ -27,8 +27,8 @@ const stillAfter = 250; // milliseconds without motion until the full frame
 export class Stage {
   orbit = new Orbit();
   quality = new Quality();
-  /** Of Viewer.setGlass, for a full frame. */
-  glass = { technique: null, ior: null, fresnel: 'on', preset: 'medium', layers: null, steps: null, maxEvents: null, output: 'picture', layer: 0, exposure: 0, transparent: true, samples: 64 };
+  /** Of Viewer.setGlass, for a full frame; the element's attributes. */
+  glass = {};
   /** Of the file, to look through; null: all of the scene is in view. */
   cameraIndex = null;
   /** @type {{model: import('./loading.js').Scene|null, environment: import('./loading.js').Source|null}} */

@@ -228,7 +228,7 @@ export class VitrineViewer extends HTMLElement {
     const stage = this.#stage;
     const { technique, ior, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, samples } = values;
     stage.cameraIndex = values.cameraIndex;
-    stage.glass = { technique, ior, fresnel, preset, layers, steps, maxEvents, output, layer, samples, exposure: Math.log2(exposure), transparent: !this.hasAttribute('skybox-image') };
+    stage.glass = { technique, ior, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'transparent-background': !this.hasAttribute('skybox-image') };
     stage.quality.mode = values.quality;
 
     this.#access.describe(values);

@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/files.h"
+#include "cli/json.h"
 #include "cli/load.h"
-#include "lab/bench/bench.h"
 
 /// The direct method's own ratio where it comes from (Weng): 1.4 s before, 1.5 s with it.
 static const double sourceRatio = 1.4 / 1.5;
@@ -96,25 +96,36 @@ static void writeJson(const void* data, FILE* out)
 {
     const Report* report = data;
     const vtRayFigures* figures = report->figures;
-    fprintf(out, "{");
-    vtWriteJsonText("model", report->model, out);
-    fprintf(
-        out,
-        " \"width\": %d, \"height\": %d, \"triangles\": %zu, \"rounds\": %d, \"rays\": %d,\n "
-        "\"buildHeights\": "
-        "%.3f, \"makeTriangles\": %.3f, \"buildTriangles\": %.3f,\n \"heightsBytes\": %zu, \"meshBytes\": "
-        "%zu, "
-        "\"embreeBytes\": %zu, \"embreePeak\": %zu,\n \"differing\": [%zu, %zu], \"sourceRatio\": %.3f,\n "
-        "\"milliseconds\": {",
-        figures->width, figures->height, figures->triangles, figures->rounds, vt_rayCount,
-        figures->heightsBuild, figures->trianglesMade, figures->trianglesBuild, figures->heightsBytes,
-        figures->meshBytes, figures->embreeBytes, figures->embreePeak, figures->differing[0],
-        figures->differing[1], sourceRatio);
+    vtJson json = {.out = out};
+    vtJson_BeginObject(&json, NULL);
+    vtJson_Text(&json, "model", report->model);
+    vtJson_Integer(&json, "width", figures->width);
+    vtJson_Integer(&json, "height", figures->height);
+    vtJson_Integer(&json, "triangles", (long long)figures->triangles);
+    vtJson_Integer(&json, "rounds", figures->rounds);
+    vtJson_Integer(&json, "rays", vt_rayCount);
+    vtJson_Number(&json, "buildHeights", figures->heightsBuild, 3);
+    vtJson_Number(&json, "makeTriangles", figures->trianglesMade, 3);
+    vtJson_Number(&json, "buildTriangles", figures->trianglesBuild, 3);
+    vtJson_Integer(&json, "heightsBytes", (long long)figures->heightsBytes);
+    vtJson_Integer(&json, "meshBytes", (long long)figures->meshBytes);
+    vtJson_Integer(&json, "embreeBytes", (long long)figures->embreeBytes);
+    vtJson_Integer(&json, "embreePeak", (long long)figures->embreePeak);
+    vtJson_BeginArray(&json, "differing");
+    vtJson_Integer(&json, NULL, (long long)figures->differing[0]);
+    vtJson_Integer(&json, NULL, (long long)figures->differing[1]);
+    vtJson_EndArray(&json);
+    vtJson_Number(&json, "sourceRatio", sourceRatio, 3);
+    vtJson_BeginObject(&json, "milliseconds");
     for (int way = 0; way < vt_rayWays; ++way) {
-        fprintf(out, "%s\n  \"%s\": {\"camera\": %.3f, \"random\": %.3f}", way > 0 ? "," : "", wayKeys[way],
-                figures->times[vt_raysOfCamera][way], figures->times[vt_raysRandom][way]);
+        vtJson_BeginObject(&json, wayKeys[way]);
+        vtJson_Number(&json, "camera", figures->times[vt_raysOfCamera][way], 3);
+        vtJson_Number(&json, "random", figures->times[vt_raysRandom][way], 3);
+        vtJson_EndObject(&json);
     }
-    fprintf(out, "}}\n");
+    vtJson_EndObject(&json);
+    vtJson_EndObject(&json);
+    fputc('\n', out);
 }
 
 static vtResult writeReport(const vtOptions* options, const vtRayFigures* figures, vtError* error)

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "lab/bench/timing.h"
+#include "lab/metrics/timing.h"
 #include "lab/rays/rays.h"
 #include "lab/reference/reference_scene.h"
 #include "relief/height_trace.h"
@@ -112,7 +112,7 @@ static vtResult makeRays(const vtView* view, Built* built, vtError* error)
             return vtFail(error, vt_errorMemory, "rays: out of memory for %d rays", vt_rayCount);
         }
     }
-    const vtCameraFrame camera = vtMakeCameraFrame(view);
+    const vtCamera camera = vtMakeViewCamera(view);
     const float tangent = tanf(view->fovY * VT_PI / 360.0f);
     uint32_t seed = 1;
     for (int i = 0; i < vt_rayCount; ++i) {

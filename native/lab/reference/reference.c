@@ -93,7 +93,7 @@ vtResult vtCreateReference(const vtScene* scene, vtReference** reference, vtErro
     }
     *reference = calloc(1, sizeof **reference);
     if (*reference == NULL) {
-        free(objects);
+        vtFree(objects);
         return vtFail(error, vt_errorMemory, "reference: out of memory");
     }
     **reference = (vtReference){.scene = scene,
@@ -126,7 +126,7 @@ void vtDestroyReference(vtReference* reference)
         rtcReleaseDevice(reference->device);
     }
     free(reference->meshes);
-    free(reference->objects);
+    vtFree(reference->objects);
     free(reference);
 }
 
@@ -208,18 +208,9 @@ static void aimAt(const vtReference* reference, uint32_t object, const vtReferen
         const vtReferencePath* path = &paths[numbers[source]];
         const vtVec3 origin = vtTransformPoint(toObject, path->origin);
         const vtVec3 direction = vtTransformVector(toObject, path->direction);
-        query->ray.org_x[lane] = origin.x;
-        query->ray.org_y[lane] = origin.y;
-        query->ray.org_z[lane] = origin.z;
-        query->ray.dir_x[lane] = direction.x;
-        query->ray.dir_y[lane] = direction.y;
-        query->ray.dir_z[lane] = direction.z;
+        vtSetPacketRay(query, lane, origin, direction);
         query->ray.tnear[lane] = startOf(reference, path, object);
         query->ray.tfar[lane] = limitOf(reference, path, &meetings[source], object);
-        query->ray.time[lane] = 0.0f;
-        query->ray.mask[lane] = ~0u;
-        query->ray.flags[lane] = 0;
-        query->hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
     }
 }
 

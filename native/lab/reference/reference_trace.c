@@ -20,7 +20,7 @@ typedef struct Job {
     const vtReference* reference;
     const vtReferenceDef* def;
     vtReferenceImage* image;
-    vtCameraFrame camera;
+    vtCamera camera;
     float tangentX, tangentY; ///< of half the field of view
     int samples;
     float exposure; ///< factor
@@ -300,7 +300,7 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
         .reference = reference,
         .def = def,
         .image = image,
-        .camera = vtMakeCameraFrame(&frame->view),
+        .camera = vtMakeViewCamera(&frame->view),
         .tangentX = tangent * (float)frame->width / (float)frame->height,
         .tangentY = tangent,
         .samples = def->samples > 1 ? def->samples : 1,

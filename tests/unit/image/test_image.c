@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "image/image.h"
+#include "image/pfm.h"
 #include "testing.h"
 
 static void curveHasKnownValues(void** state)

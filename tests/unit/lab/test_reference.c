@@ -5,6 +5,7 @@
 #include "base/optics.h"
 #include "cli/files.h"
 #include "image/image.h"
+#include "image/pfm.h"
 #include "lab/metrics/metrics.h"
 #include "lab/reference/reference.h"
 #include "scene/camera.h"
@@ -60,7 +61,7 @@ static vtFrame makeFrame(int width, int height)
 
 static vtVec3 eyeDirection(const vtFrame* frame, int pixel)
 {
-    const vtCameraFrame camera = vtMakeCameraFrame(&frame->view);
+    const vtCamera camera = vtMakeViewCamera(&frame->view);
     const float tangent = tanf(frame->view.fovY * VT_PI / 360.0f);
     const float width = (float)frame->width, height = (float)frame->height;
     const float x = ((float)(pixel % frame->width) + 0.5f) / width * 2.0f - 1.0f;
@@ -467,7 +468,7 @@ static void wrongSettingsAreNamed(void** state)
         {{.frame = &good, .samples = -1}, "samples is -1"},
         {{.frame = &good, .samples = VT_MAX_TRACED_SAMPLES + 1}, "samples is 65537"},
         {{.frame = &good, .threads = -2}, "threads is -2"},
-        {{.frame = &bad}, "index of refraction is 0.5"},
+        {{.frame = &bad}, "ior is 0.5"},
     };
     for (size_t i = 0; i < sizeof entries / sizeof entries[0]; ++i) {
         vtReferenceImage image = {.width = 5};
@@ -878,7 +879,7 @@ static void instancesAreAsTheirMeshesBaked(void** state)
         addObject(&instance, createShape("torus"), glassOf(1.5f), entries[i].transform);
         vtFrame frame = makeSceneFrame(96);
         frame.maxEvents = 8; // rounding decides where paths of twenty go
-        frame.view = vtFrameMesh(&baked.meshes[0], 45.0f, 1.0f);
+        frame.view = vtViewOfMesh(&baked.meshes[0], 45.0f, 1.0f);
         vtReferenceImage first = trace(&instance, (vtReferenceDef){.frame = &frame});
         vtReferenceImage second = trace(&baked, (vtReferenceDef){.frame = &frame});
         const int differences = countDifferences(&first, &second, entries[i].degrees);

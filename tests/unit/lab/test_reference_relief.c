@@ -1,4 +1,5 @@
 // Reliefs without triangles in the reference, against Embree's triangles of the same reliefs.
+#include "cases.h"
 #include "lab/reference/reference.h"
 #include "lab/reference/reference_scene.h"
 #include "relief/height_trace.h"
@@ -252,7 +253,7 @@ static void picturesAreTheSame(void** state)
                 triangles = createScenery(relief, true, opaque);
         vtFrame frame = vtDefaultFrame();
         frame.width = frame.height = 96;
-        frame.view = vtFrameScene(&direct, 45.0f, 1.0f);
+        frame.view = vtViewOfScene(&direct, 45.0f, 1.0f);
         vtReferenceImage a = tracePicture(&direct, &frame, &environment);
         vtReferenceImage b = tracePicture(&triangles, &frame, &environment);
         comparePictures(&a, &b, relief->name);
@@ -260,8 +261,8 @@ static void picturesAreTheSame(void** state)
         for (int k = 0; k < 96 * 96 && i < 4; k += 97) { // one path each, with and without triangles
             vtPath path[2];
             const float x = (float)(k % 96) + 0.5f, y = (float)(k / 96) + 0.5f;
-            assert_ok(vtTracePath(&direct, &frame, x, y, &path[0], NULL), (vtError){0});
-            assert_ok(vtTracePath(&triangles, &frame, x, y, &path[1], NULL), (vtError){0});
+            assert_ok(tracePath(&direct, &frame, x, y, &path[0], NULL), (vtError){0});
+            assert_ok(tracePath(&triangles, &frame, x, y, &path[1], NULL), (vtError){0});
             assert_true(path[0].eventCount == path[1].eventCount);
             assert_memory_equal(&path[0].direction, &path[1].direction, sizeof(vtVec3));
             const vtVec3 traced = vtMakeVec3(a.directions + 3 * (size_t)k);

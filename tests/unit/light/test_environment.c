@@ -15,7 +15,7 @@ static vtVec3 directionAt(float u, float v)
 
 static void expectCell(vtVec3 d, int q)
 {
-    const vtVec3 radiance = environmentChecker(d);
+    const vtVec3 radiance = vtEnvironmentChecker(d);
     const float base = 0.15f + 0.75f * (float)q;
     assert_near(radiance.x, base * (0.675f + 0.325f * d.x), 1e-6f);
     assert_near(radiance.y, base * (0.675f + 0.325f * d.y), 1e-6f);
@@ -124,7 +124,7 @@ static void builtInRadianceIsUsable(void** state)
         }
         assert_true(brightest > 0.5f);
     }
-    assert_true(environmentSky((vtVec3){-0.5f, 0.5f, -0.70710678f}).x > 40.0f); // the sun's disc
+    assert_true(vtEnvironmentSky((vtVec3){-0.5f, 0.5f, -0.70710678f}).x > 40.0f); // the sun's disc
 }
 
 static void environmentsLoadFromFiles(void** state)

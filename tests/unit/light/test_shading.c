@@ -466,7 +466,8 @@ static void uploadScene(Gpu* gpu, const vtScene* scene)
     const vtFrame frame = vtDefaultFrame();
     vtSceneBuffer_Destroy(&gpu->scene, &gpu->gl);
     assert_ok(vtSceneBuffer_Create(&gpu->scene, &gpu->gl, scene, &error), error);
-    vtWriteObjectTable(&gpu->scene, &frame);
+    const vtCamera camera = vtMakeCamera(&frame);
+    vtWriteObjectTable(&gpu->scene, &frame, &camera);
     vtSceneBuffer_SetTable(&gpu->scene, &gpu->gl);
     for (int m = 0; m < 3; ++m) {
         vtHierarchy hierarchy;
@@ -504,10 +505,10 @@ static void uploadCases(Gpu* gpu, const vtPlacedObject* placed, uint32_t (*cases
         const uint32_t mesh = placed[i % objects].meshIndex;
         cases[i][0] = i % objects;
         cases[i][1] = pickTriangle(gpu, mesh, hash(i + 300000u));
-        cases[i][2] = 2 * gpu->scene.meshRecords[mesh].first + cases[i][1];
+        cases[i][2] = 2 * gpu->scene.geometry.items[mesh].records.first + cases[i][1];
     }
     vtTexture_Resize(&gpu->cases, &gpu->gl, GL_RGBA32UI, caseSide, caseSide, 0);
-    vtTexture_Bind(&gpu->cases, &gpu->gl, 0);
+    vtTexture_Bind(&gpu->cases, &gpu->gl, vt_samplerNone);
     gpu->gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, caseSide, caseSide, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                           cases);
 }
@@ -546,8 +547,6 @@ static void evaluate(Gpu* gpu, const char* source, uint32_t* results)
         .vertex = {&vtChunk_screen_vert},
         .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_records,
                      &vtChunk_lighting, &vtChunk_shading, &body},
-        .samplers = {"u_objects", "u_records", "u_attributes", "u_images", "u_lighting", "u_environment",
-                     "u_cases"},
     };
     GLuint framebuffer = 0;
     vtProgram program = {0};
@@ -560,10 +559,14 @@ static void evaluate(Gpu* gpu, const char* source, uint32_t* results)
     vtBindFramebuffer(gl, framebuffer, caseSide, caseSide);
     gl->UseProgram(program.name);
     gl->BindVertexArray(gpu->vertexArray);
-    const vtTexture* textures[] = {&gpu->scene.table,  &gpu->scene.records, &gpu->scene.attributes,
-                                   &gpu->scene.images, &gpu->lighting,      &gpu->environment,
-                                   &gpu->cases};
-    vtBindTextures(gl, textures, sizeof textures / sizeof textures[0]);
+    const vtBinding bindings[] = {{vt_samplerObjects, &gpu->scene.table},
+                                  {vt_samplerRecords, &gpu->scene.geometry.records},
+                                  {vt_samplerAttributes, &gpu->scene.geometry.attributes},
+                                  {vt_samplerImages, &gpu->scene.images},
+                                  {vt_samplerLighting, &gpu->lighting},
+                                  {vt_samplerEnvironment, &gpu->environment},
+                                  {vt_samplerNone, &gpu->cases}}; // u_cases, which is the test's own
+    vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
     gl->ReadPixels(0, 0, caseSide, caseSide, GL_RGBA_INTEGER, GL_UNSIGNED_INT, results);
     assert_ok(vtCheckGL(gl, "evaluating", &error), error);
@@ -673,7 +676,7 @@ static void farSurfacesShowTheMeanOfTheImage(void** state)
     vtLighting lighting = lightingOf(&environment);
     uploadEnvironment(&gpu, &environment, &lighting);
     static uint32_t results[4 * caseSide * caseSide];
-    const uint32_t triangle = 2 * gpu.scene.meshRecords[0].first + pickTriangle(&gpu, 0, 0);
+    const uint32_t triangle = 2 * gpu.scene.geometry.items[0].records.first + pickTriangle(&gpu, 0, 0);
     const float footprints[] = {0.05f, 0.12f, 100.0f};
     for (int k = 0; k < 3; ++k) {
         char source[512];

@@ -434,6 +434,74 @@ static void testGrid(void** state)
     free(indices);
 }
 
+/// A vertex as an engine's buffer has it.
+typedef struct Vertex {
+    float position[3], texcoord[2], normal[3];
+    uint8_t other[4];
+    float color[3];
+} Vertex;
+
+// Interleaved and with 16-bit indices, the cube is what it is from arrays of their own.
+static void testStridesAndShortIndices(void** state)
+{
+    (void)state;
+    float texcoords[16], colors[24];
+    uint16_t shortIndices[36];
+    Vertex vertices[8];
+    memset(vertices, 0xff, sizeof vertices); // NaN, wherever too much is read
+    for (size_t i = 0; i < 8; ++i) {
+        for (size_t k = 0; k < 3; ++k) {
+            vertices[i].position[k] = cubePositions[3 * i + k];
+            vertices[i].normal[k] = 2.0f * cubePositions[3 * i + k];
+            vertices[i].color[k] = colors[3 * i + k] = 0.01f * (float)(3 * i + k);
+        }
+        for (size_t k = 0; k < 2; ++k) {
+            vertices[i].texcoord[k] = texcoords[2 * i + k] = 0.1f * (float)(2 * i + k);
+        }
+    }
+    for (size_t i = 0; i < 36; ++i) {
+        shortIndices[i] = (uint16_t)cubeIndices[i];
+    }
+    vtMeshDef tight = makeCube(), loose = makeCube();
+    tight.normals = cubePositions;
+    tight.texcoords = texcoords;
+    tight.colors = colors;
+    loose.positions = vertices[0].position;
+    loose.normals = vertices[0].normal;
+    loose.texcoords = vertices[0].texcoord;
+    loose.colors = vertices[0].color;
+    loose.positionStride = loose.normalStride = loose.texcoordStride = loose.colorStride = sizeof *vertices;
+    loose.indices = NULL;
+    loose.indices16 = shortIndices;
+    vtMesh a = createMesh(&tight), b = createMesh(&loose);
+    assert_memory_equal(a.positions, b.positions, sizeof cubePositions);
+    assert_memory_equal(a.normals, b.normals, sizeof cubePositions);
+    assert_memory_equal(a.indices, b.indices, sizeof cubeIndices);
+    assert_memory_equal(a.texcoords, b.texcoords, sizeof texcoords);
+    assert_memory_equal(a.colors, b.colors, sizeof colors);
+    assert_int_equal(b.openEdgeCount, 0);
+    vtDestroyMesh(&a);
+    vtDestroyMesh(&b);
+
+    vertices[7].position[1] = NAN;
+    assertFails(&loose, vt_errorGeometry,
+                "mesh 'x.glb': vertex 7 has a position that is not finite (1, nan, 1); export it again");
+    vertices[7].position[1] = 1.0f;
+    shortIndices[4] = 8;
+    assertFails(&loose, vt_errorGeometry,
+                "mesh 'x.glb': index 4 (triangle 1) is 8, but there are only 8 vertices; export it again");
+    loose.indices = cubeIndices;
+    assertFails(&loose, vt_errorArgument, "mesh 'x.glb': it has indices of 32 and of 16 bits; give one kind");
+    loose.indices16 = NULL;
+    loose.texcoordStride = 4;
+    assertFails(&loose, vt_errorArgument,
+                "mesh 'x.glb': a stride is 4 bytes; it must be a multiple of 4 and 8 or more");
+    loose.texcoordStride = 0;
+    loose.positionStride = 14;
+    assertFails(&loose, vt_errorArgument,
+                "mesh 'x.glb': a stride is 14 bytes; it must be a multiple of 4 and 12 or more");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -461,6 +529,7 @@ int main(void)
         cmocka_unit_test(testFilledTJunction),
         cmocka_unit_test(testAllDegenerate),
         cmocka_unit_test(testGrid),
+        cmocka_unit_test(testStridesAndShortIndices),
     };
     return cmocka_run_group_tests_name("mesh", tests, NULL, NULL);
 }

@@ -95,7 +95,7 @@ static void shapesAgree(void** state)
     for (int shape = 0; vtShapeName(shape) != NULL; ++shape) {
         vtScene scene = makeScene(&(Thing){vtShapeName(shape), 1, 0, 0, 0, 1.5f, false}, 1);
         vtFrame frame = frameFrom(0, 0, 1);
-        frame.view = vtView_Orbit(vtFrameMesh(&scene.meshes[0], 45.0f, 1.0f), 0.9f, 0.2f);
+        frame.view = vtView_Orbit(vtViewOfMesh(&scene.meshes[0], 45.0f, 1.0f), 0.9f, 0.2f);
         assert_true(agreement(*state, &scene, &frame, vtShapeName(shape)) >= 0.995);
         vtDestroyScene(&scene);
     }

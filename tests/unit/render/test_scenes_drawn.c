@@ -165,7 +165,7 @@ static vtFrame sceneFrame(const vtScene* scene)
 {
     vtFrame frame = smallFrame(vt_techniqueExact);
     frame.ior = 0.0f;
-    frame.view = vtFrameScene(scene, 45.0f, 1.0f);
+    frame.view = vtViewOfScene(scene, 45.0f, 1.0f);
     return frame;
 }
 

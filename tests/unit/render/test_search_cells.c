@@ -45,7 +45,7 @@ static void hitsAreThoseOfATracer(void** state)
         vtReferenceImage truth;
         assert_ok(vtCreateShape(wanted[i].shape, &mesh, &error), error);
         vtFrame frame = cellsFrame();
-        frame.view = vtView_Orbit(vtFrameMesh(&mesh, 45.0f, 1.0f), 0.3f, 0.2f);
+        frame.view = vtView_Orbit(vtViewOfMesh(&mesh, 45.0f, 1.0f), 0.3f, 0.2f);
         frame.layerSize = 512;
         traceMesh(&mesh, &frame, &truth);
         assert_ok(vtRenderer_SetMesh(fixture->renderer, &mesh, &error), error);

@@ -5,6 +5,7 @@
 #include "cli/files.h"
 #include "context/context.h"
 #include "image/image.h"
+#include "image/pfm.h"
 #include "lab/metrics/metrics.h"
 #include "lab/reference/reference.h"
 #include "scene/objects.h"

@@ -1,4 +1,5 @@
-// Meshes that change: what is drawn after vtRenderer_UpdateMesh is what a scene of the new vertices shows.
+// Meshes that change: what is drawn after vtRenderer_UpdateGeometry is what a scene of the new vertices
+// shows.
 #include <math.h>
 #include <string.h>
 
@@ -81,9 +82,13 @@ static void movedVerticesAreDrawn(void** state)
         const uint32_t* records = moved->hierarchy->records;
         assert_ok(vtMesh_Update(moved, positions, NULL, &error), error);
         assert_ptr_equal(records, moved->hierarchy->records); // refitted, not built
-        assert_ok(vtRenderer_UpdateMesh(fixture->renderer, &scene, 0, &error), error);
+        assert_ok(vtRenderer_UpdateGeometry(fixture->renderer, vtRenderer_SceneGeometry(fixture->renderer, 0),
+                                            moved, &error),
+                  error);
         assert_true(compare(fixture->renderer, &scene, vt_techniqueExact) <= side * side / 1000);
-        assert_ok(vtRenderer_UpdateMesh(fixture->renderer, &scene, 0, &error), error);
+        assert_ok(vtRenderer_UpdateGeometry(fixture->renderer, vtRenderer_SceneGeometry(fixture->renderer, 0),
+                                            moved, &error),
+                  error);
         assert_int_equal(compare(fixture->renderer, &scene, vt_techniqueLayered), 0);
     }
     free(positions);
@@ -113,7 +118,9 @@ static void wornHierarchiesAreBuiltAnew(void** state)
     }
     assert_ok(vtMesh_Update(moved, positions, NULL, &error), error);
     assert_true(moved->hierarchy->refitCost == moved->hierarchy->cost);
-    assert_ok(vtRenderer_UpdateMesh(fixture->renderer, &scene, 0, &error), error);
+    assert_ok(vtRenderer_UpdateGeometry(fixture->renderer, vtRenderer_SceneGeometry(fixture->renderer, 0),
+                                        moved, &error),
+              error);
     assert_true(compare(fixture->renderer, &scene, vt_techniqueExact) <= side * side / 1000);
     free(positions);
     vtDestroyScene(&scene);
@@ -161,7 +168,9 @@ static void partsMovedIntoEachOtherAreDrawn(void** state)
         positions[3 * i] += positions[3 * i] < 0.0f ? 0.6f : -0.6f;
     }
     assert_ok(vtMesh_Update(moved, positions, NULL, &error), error);
-    assert_ok(vtRenderer_UpdateMesh(fixture->renderer, &scene, 0, &error), error);
+    assert_ok(vtRenderer_UpdateGeometry(fixture->renderer, vtRenderer_SceneGeometry(fixture->renderer, 0),
+                                        moved, &error),
+              error);
     assert_true(compare(fixture->renderer, &scene, vt_techniqueExact) <= side * side / 1000);
     free(positions);
     vtDestroyScene(&scene);

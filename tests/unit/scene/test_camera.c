@@ -9,7 +9,7 @@ static void frameIsOrthonormalAndLooksAtTheTarget(void** state)
     const vtView views[] = {
         {{0.36f, 0.3f, 3.05f}, {0, 0, 0}, 45}, {{0, 5, 0}, {0, 0, 0}, 45}, {{1, -9, 2}, {1, 3, 2}, 20}};
     for (int i = 0; i < 3; ++i) {
-        vtCameraFrame c = vtMakeCameraFrame(&views[i]);
+        vtCamera c = vtMakeViewCamera(&views[i]);
         assert_near(vtDot(c.right, c.up), 0.0f, 1e-6);
         assert_near(vtDot(c.right, c.forward), 0.0f, 1e-6);
         assert_near(vtDot(c.up, c.forward), 0.0f, 1e-6);
@@ -19,12 +19,12 @@ static void frameIsOrthonormalAndLooksAtTheTarget(void** state)
         assert_near(vtLength(vtSub(wanted, c.forward)), 0.0f, 1e-6);
     }
     // Seen along -Z, +X is on the right and +Y is up.
-    vtCameraFrame front = vtMakeCameraFrame(&(vtView){{0, 0, 2}, {0, 0, 0}, 45});
+    vtCamera front = vtMakeViewCamera(&(vtView){{0, 0, 2}, {0, 0, 0}, 45});
     assert_near(front.right.x, 1.0f, 1e-6);
     assert_near(front.up.y, 1.0f, 1e-6);
 }
 
-static bool holds(const vtFrustum* f, const vtCameraFrame* c, vtVec3 p)
+static bool holds(const vtFrustum* f, const vtCamera* c, vtVec3 p)
 {
     vtVec3 o = vtSub(p, c->eye);
     float x = vtDot(o, c->right), y = vtDot(o, c->up), z = vtDot(o, c->forward);
@@ -58,8 +58,8 @@ static void layerFrustumHoldsTheWholeBox(void** state)
     const vtView views[] = {
         {{0.36f, 0.3f, 3.05f}, {0, 0, 0}, 45}, {{40, 30, -50}, {5, 5, 0}, 10}, {{0, 3, 0}, {0, 0, 0}, 90}};
     for (int i = 0; i < 3; ++i) {
-        vtFrustum f = vtMakeLayerFrustum(&views[i], low, high);
-        vtCameraFrame c = vtMakeCameraFrame(&views[i]);
+        vtCamera c = vtMakeViewCamera(&views[i]);
+        vtFrustum f = vtMakeLayerFrustum(&c, low, high);
         for (int k = 0; k < 8; ++k) {
             vtVec3 corner = {k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z};
             assert_true(holds(&f, &c, corner));
@@ -74,7 +74,8 @@ static void frustaStaySoundFromInsideTheBox(void** state)
     const vtView views[] = {
         {{0, 0, 0.5f}, {0, 0, 0}, 45}, {{0, 0, 9}, {0, 0, 10}, 45}, {{1, 1, 1}, {0, 0, 0}, 45}};
     for (int i = 0; i < 3; ++i) {
-        vtFrustum f = vtMakeLayerFrustum(&views[i], low, high);
+        vtCamera c = vtMakeViewCamera(&views[i]);
+        vtFrustum f = vtMakeLayerFrustum(&c, low, high);
         assert_true(f.near > 0.0f && f.far > f.near);
         assert_true(f.right > f.left && f.top > f.bottom);
         assert_true(f.left >= -VT_MAX_LAYER_TANGENT && f.right <= VT_MAX_LAYER_TANGENT);
@@ -89,9 +90,12 @@ static void framedMeshFitsThePicture(void** state)
     assert_ok(vtCreateShape("torus", &mesh, &error), error);
     const float aspects[] = {0.4f, 1.0f, 2.5f};
     for (int i = 0; i < 3; ++i) {
-        vtView view = vtFrameMesh(&mesh, 30.0f, aspects[i]);
-        vtFrustum f = vtMakePictureFrustum(&view, aspects[i], mesh.boundsMin, mesh.boundsMax);
-        vtCameraFrame c = vtMakeCameraFrame(&view);
+        vtFrame frame = vtDefaultFrame();
+        frame.view = vtViewOfMesh(&mesh, 30.0f, aspects[i]);
+        frame.width = (int)(1000.0f * aspects[i]);
+        frame.height = 1000;
+        vtCamera c = vtMakeCamera(&frame);
+        vtFrustum f = vtMakePictureFrustum(&c, mesh.boundsMin, mesh.boundsMax);
         for (uint32_t v = 0; v < mesh.vertexCount; ++v) {
             assert_true(holds(&f, &c, vtMakeVec3(mesh.positions + 3 * v)));
         }
@@ -144,18 +148,18 @@ static void framesOutOfRangeAreNamed(void** state)
     change;                                                                                                  \
     assert_int_equal(vtValidateFrame(&f, &error), vt_errorArgument);                                         \
     assert_non_null(strstr(error.message, text))
-    EXPECT(f.layers = -1, "layers is -1; it must be from 0 to 16");
+    EXPECT(f.layers = -1, "layers is -1; it must be from 1 to 16, or 0");
     EXPECT(f.layers = 17, "layers is 17");
     EXPECT(f.steps = -1, "steps");
     EXPECT(f.preset = vt_presetCount, "preset is 3");
     EXPECT(f.refine = 33, "refine");
     EXPECT(f.maxEvents = 65, "max-events");
-    EXPECT(f.ior = 0.9f, "index of refraction is 0.9; it must be from 1 to 4");
-    EXPECT(f.ior = NAN, "index of refraction");
+    EXPECT(f.ior = 0.9f, "ior is 0.9; it must be from 1 to 4, or 0");
+    EXPECT(f.ior = NAN, "ior");
     EXPECT(f.width = 0, "width");
     EXPECT(f.height = 20000, "height");
     EXPECT(f.layerSize = 5, "layer-size");
-    EXPECT(f.view.fovY = 0.0f, "field of view");
+    EXPECT(f.view.fovY = 0.0f, "fov");
     EXPECT(f.view.eye.x = INFINITY, "finite");
     EXPECT(f.view.eye = f.view.target, "stands on its target");
     EXPECT(f.technique = vt_techniqueCount, "technique");

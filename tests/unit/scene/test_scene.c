@@ -537,20 +537,20 @@ static void opaqueFloorsDoNotPushTheCameraAway(void** state)
     (void)state;
     vtScene scene = {0};
     add(&scene, "sphere", glassOf(1.5f), place(1, 0, 0, 1), "");
-    const vtView alone = vtFrameScene(&scene, 45.0f, 1.0f);
-    const vtView ofMesh = vtFrameMesh(&scene.meshes[0], 45.0f, 1.0f);
+    const vtView alone = vtViewOfScene(&scene, 45.0f, 1.0f);
+    const vtView ofMesh = vtViewOfMesh(&scene.meshes[0], 45.0f, 1.0f);
     const vtVec3 moved = vtSub(alone.eye, ofMesh.eye);
     assertVector(moved, 1, 0, 0, 1e-4f);
     assertVector(alone.target, 1, 0, 0, 1e-4f);
     add(&scene, "plane", paint(), place(0, 0, -2, 10), "floor");
-    const vtView view = vtFrameScene(&scene, 45.0f, 1.0f);
+    const vtView view = vtViewOfScene(&scene, 45.0f, 1.0f);
     assert_memory_equal(&view, &alone, sizeof view);
     scene.materials[0].opaque = true;
-    const vtView all = vtFrameScene(&scene, 45.0f, 1.0f);
+    const vtView all = vtViewOfScene(&scene, 45.0f, 1.0f);
     assert_true(vtLength(vtSub(all.eye, all.target)) > 5.0f * vtLength(vtSub(view.eye, view.target)));
     scene.materials[0].opaque = false;
     scene.objects[0].toWorld = place(0, 0, 0, 3); // three times as large, so three times as far
-    const vtView large = vtFrameScene(&scene, 45.0f, 1.0f);
+    const vtView large = vtViewOfScene(&scene, 45.0f, 1.0f);
     assert_near(vtLength(vtSub(large.eye, large.target)), 3.0f * vtLength(vtSub(view.eye, view.target)),
                 1e-3f);
     vtDestroyScene(&scene);

@@ -1,0 +1,134 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/setting_options.h"
+
+static void printUsage(void)
+{
+    printf(
+        "vitrine: glass through OpenGL ES 3.0, with every refraction and internal reflection\n"
+        "\n"
+        "  vitrine render MODEL -o OUT.png [options]   draw a picture, no screen needed\n"
+        "  vitrine ladder MODEL [options]              every technique beside the reference, with its error\n"
+        "  vitrine bench MODEL [options]               time, memory and accuracy beside the reference\n"
+        "  vitrine rays RELIEF [options]               its heights traced beside Embree's triangles\n"
+        "  vitrine compare A B [options]               measure a picture or directions against the truth\n"
+        "  vitrine view MODEL [options]                turn the object in a window\n"
+        "  vitrine list                                techniques, shapes, reliefs, environments\n"
+        "  vitrine list --settings                     the settings of a frame, as JSON\n"
+        "  vitrine COMMAND --help                      the options of each\n"
+        "  vitrine --version\n"
+        "\n"
+        "MODEL is a .glb or .gltf file, a built-in shape, or a relief: a picture of heights (.png, .jpg, "
+        ".hdr, .pfm)\n"
+        "or a built-in pattern. - reads a file from standard input.\n"
+        "Further objects: --object, see 'vitrine render --help'.\n");
+}
+
+static void printList(void)
+{
+    printf("techniques:\n");
+    for (int i = 0; i < vt_techniqueCount; ++i) {
+        const vtTechniqueInfo* info = vtTechnique_Info((vtTechnique)i);
+        printf("  %-14s %s\n  %-14s %s, %d\n", info->id, info->summary, "", info->source, info->year);
+    }
+    printf("  %-14s %s\n  %-14s %s, %d\n", "reference", "CPU ray tracer, the yardstick (Embree)", "",
+           "Whitted, An Improved Illumination Model for Shaded Display", 1980);
+    printf("shapes:\n");
+    for (int i = 0; vtShapeName(i) != NULL; ++i) {
+        printf("  %-14s %s\n", vtShapeName(i), vtShapeSummary(i));
+    }
+    printf("reliefs:\n");
+    for (int i = 0; vtReliefPatternName(i) != NULL; ++i) {
+        printf("  %-14s %s\n", vtReliefPatternName(i), vtReliefPatternSummary(i));
+    }
+    printf("environments:\n");
+    for (int i = 0; vtEnvironmentName(i) != NULL; ++i) {
+        printf("  %-14s %s\n", vtEnvironmentName(i), vtEnvironmentSummary(i));
+    }
+}
+
+static int report(vtResult result, const vtError* error)
+{
+    if (result == vt_ok) {
+        return 0;
+    }
+    fprintf(stderr, "vitrine: %s\n", error->message);
+    return 1;
+}
+
+typedef vtResult vtRunFcn(const vtOptions* options, vtError* error);
+
+static const struct {
+    const char* name;
+    vtCommand command;
+    vtRunFcn* run;
+} commands[] = {
+    {"render", vt_commandRender, vtRunRender}, {"view", vt_commandView, vtRunView},
+    {"ladder", vt_commandLadder, vtRunLadder}, {"bench", vt_commandBench, vtRunBench},
+    {"rays", vt_commandRays, vtRunRays},
+};
+
+static int runCommand(int index, int count, char** words)
+{
+    vtOptions options;
+    vtError error = {0};
+    vtResult result = vtParseOptions(commands[index].command, count, words, &options, &error);
+    if (result == vt_ok && options.help) {
+        printf("vitrine %s MODEL [options]; MODEL is a .glb or .gltf file, a picture of heights or a "
+               "built-in shape or relief, or left out where --object names what is drawn\n\n",
+               words[0]);
+        vtPrintOptions(commands[index].command);
+        return 0;
+    }
+    if (result == vt_ok) {
+        result = commands[index].run(&options, &error);
+    }
+    return report(result, &error);
+}
+
+static int runList(int count, char** words)
+{
+    if (count == 0) {
+        printList();
+        return 0;
+    }
+    if (count == 1 && strcmp(words[0], "--settings") == 0) {
+        vtPrintSettings();
+        return 0;
+    }
+    fprintf(stderr, "vitrine: list takes --settings or nothing; '%s' is neither\n", words[count - 1]);
+    return 1;
+}
+
+int main(int argc, char** argv)
+{
+    const char* command = argc > 1 ? argv[1] : "";
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; ++i) {
+        if (strcmp(command, commands[i].name) == 0) {
+            return runCommand((int)i, argc - 1, argv + 1);
+        }
+    }
+    if (strcmp(command, "compare") == 0) {
+        vtError error = {0};
+        return report(vtRunCompare(argc - 1, argv + 1, &error), &error);
+    }
+    if (strcmp(command, "list") == 0) {
+        return runList(argc - 2, argv + 2);
+    }
+    if (strcmp(command, "--version") == 0) {
+        printf("vitrine %s\n", VT_VERSION);
+        return 0;
+    }
+    if (strcmp(command, "--help") == 0 || strcmp(command, "-h") == 0 || strcmp(command, "help") == 0) {
+        printUsage();
+        return 0;
+    }
+    if (*command == '\0') {
+        fprintf(stderr, "vitrine: no command given; see 'vitrine --help'\n");
+    } else {
+        fprintf(stderr, "vitrine: unknown command '%s'; see 'vitrine --help'\n", command);
+    }
+    return 1;
+}

@@ -1,0 +1,17 @@
+// Light that comes to a point of the world from beyond the scene: from the host's picture, where it shows it, else from
+// the environment.
+#ifndef WITH_OPAQUE // lighting.glsl has it
+uniform sampler2D u_environment;
+#endif
+
+vec3 surroundings(vec3 position, vec3 direction)
+{
+    vec3 light = environmentRadiance(u_output.z, u_environment, direction);
+#ifdef WITH_BACKDROP
+    vec3 seen;
+    if (lightFromHost(position, direction, seen)) {
+        light = seen;
+    }
+#endif
+    return light;
+}

@@ -1,0 +1,6 @@
+#include "vitrine.h"
+
+const char* vtVersion(void)
+{
+    return VT_VERSION;
+}

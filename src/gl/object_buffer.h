@@ -1,0 +1,15 @@
+// One object of a scene on the GPU (scene_buffer.h).
+#pragma once
+
+#include "scene/objects.h"
+
+/// One object as it is drawn.
+typedef struct vtObjectBuffer {
+    vtPlacedObject placed; ///< placed.mesh: counts, box and volume only
+    vtMaterial material;
+    uint32_t geometry;       ///< in vtSceneBuffer.geometry.items
+    vtVec3 ownMin, ownMax;   ///< the mesh's box in the object's own coordinates
+    uint32_t firstAttribute; ///< record, or VT_NO_TRIANGLE
+    bool bothSides; ///< opaque, or glass with open edges or parts that overlap: rays meet its triangles from
+                    ///< either side
+} vtObjectBuffer;

@@ -1,0 +1,214 @@
+// From a scene to paths and their light: the passes of a frame, in order, but the last. Techniques that
+// search layers, or blend: surface, peel, merge, refract, shade; those that need no image of the scene:
+// trace. Each pass reads the targets of those before it and writes its own.
+#include "render/renderer.h"
+#include "technique/technique.h"
+
+static vtPeelKind choosePeelKind(const vtFrame* frame)
+{
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    if (row->innerDistances && frame->backSurface == vt_backFarthest) {
+        return vt_peelFarthest;
+    }
+    return row->layerSpace == vt_layersOfEachObject ? vt_peelEachObject : vt_peelAll;
+}
+
+void vtEndStage(const vtFrame* frame, const char* stage)
+{
+    if (frame->stageDone != NULL) {
+        frame->stageDone(stage, frame->stageData);
+    }
+}
+
+static bool hasOpaque(const vtRenderer* renderer)
+{
+    return renderer->scene.objectCount > renderer->scene.glassCount;
+}
+
+void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
+    if (row->traces) {
+        vtTracePass_Start(&renderer->trace, gl, vtChooseTraceVariant(&renderer->scene, frame), programs);
+    } else {
+        vtRefractPass_Start(&renderer->refract, gl, frame->technique, variant, frame->countReads, programs);
+        vtShadePass_Start(&renderer->shade, gl, hasOpaque(renderer), row->surface, vtFrame_HasHost(frame),
+                          programs);
+    }
+    if (row->surface) {
+        vtSurfacePass_Start(&renderer->surface, gl, row->innerDistances, programs);
+    }
+    if (row->layers != 0) {
+        vtPeelPass_Start(&renderer->peel, gl, choosePeelKind(frame), programs);
+    }
+    if (row->merge) {
+        vtMergePass_Start(&renderer->merge, gl, programs);
+    }
+    if (vtFrame_AddsSamples(frame)) {
+        vtAccumulatePass_Start(&renderer->accumulate, gl, programs);
+    } else if (!vtFrame_IsOverlay(frame)) {
+        vtPresentPass_Start(&renderer->present, gl, programs);
+    }
+    if (vtFrame_IsOverlay(frame)) {
+        vtOverlayPass_Start(&renderer->overlay, gl, row->surface, programs);
+    }
+}
+
+/// Targets of the techniques that search layers, or blend.
+static vtResult resizeLayers(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
+                             vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    const int layers = vtFrame_LayerCount(frame);
+    const int sets = choosePeelKind(frame) == vt_peelEachObject && renderer->scene.glassCount > 0
+                         ? (int)renderer->scene.glassCount
+                         : 1;
+    const bool ordered = vtVariant_IsOrdered(vtFrame_Variant(frame, hasOpaque(renderer)));
+    vtResult result = vt_ok;
+    if (row->surface) {
+        result = vtSurfacePass_Resize(&renderer->surface, gl, frame->width, frame->height,
+                                      row->innerDistances, error);
+    }
+    if (result == vt_ok) {
+        result = vtRefractPass_Resize(&renderer->refract, gl, frame->width, frame->height, ordered ? 2 : 1,
+                                      row->surface ? &renderer->surface.depth : NULL, error);
+    }
+    if (result == vt_ok && layers > 0) {
+        result = vtPeelPass_Resize(&renderer->peel, gl, layerWidth, layerHeight, layers, sets, error);
+    }
+    if (result == vt_ok && row->merge) {
+        result = vtMergePass_Resize(&renderer->merge, gl, layerWidth, layerHeight, layers, sets, error);
+    }
+    return result == vt_ok ? vtShadePass_Resize(&renderer->shade, gl, frame->width, frame->height, error)
+                           : result;
+}
+
+vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
+                                  vtError* error)
+{
+    const vtGL* gl = &renderer->gl;
+    vtResult result =
+        vtTechnique_Row(frame->technique)->traces
+            ? vtTracePass_Resize(&renderer->trace, gl, vtChooseTraceVariant(&renderer->scene, frame),
+                                 frame->width, frame->height, error)
+            : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
+    if (result == vt_ok && hasOpaque(renderer)) {
+        result = vtEnvironmentBuffer_Light(&renderer->environment, gl, error);
+    }
+    if (result == vt_ok && vtFrame_AddsSamples(frame)) {
+        result = vtAccumulatePass_Resize(&renderer->accumulate, gl, frame->width, frame->height, error);
+    }
+    return result;
+}
+
+/// One object after the other, from the eye; then the surfaces of all are there again.
+static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, vtVariant variant,
+                        const vtRefractInputs* inputs)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtSceneBuffer* scene = &renderer->scene;
+    const uint32_t count = scene->glassCount;
+    vtRefractPass_ClearOrdered(&renderer->refract, gl, count);
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t object = scene->order[i];
+        if (count > 1) {
+            vtSurfacePass_Draw(&renderer->surface, gl, scene, object, object + 1, false);
+            gl->BindVertexArray(renderer->emptyVertexArray);
+            vtEndStage(frame, "surface");
+        }
+        vtRefractPass_DrawOrdered(&renderer->refract, gl, frame->technique, variant, inputs, object,
+                                  count - 1 - i);
+        vtEndStage(frame, "refract");
+    }
+    if (count > 1) {
+        vtSurfacePass_Draw(&renderer->surface, gl, scene, 0, count, false);
+        gl->BindVertexArray(renderer->emptyVertexArray);
+        vtEndStage(frame, "surface");
+    }
+}
+
+/// Paths and light of the techniques that search layers, or blend.
+static void drawLayers(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
+{
+    const vtGL* gl = &renderer->gl;
+    const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
+    if (row->surface) {
+        vtSurfacePass_Draw(&renderer->surface, gl, &renderer->scene, 0, renderer->scene.glassCount,
+                           row->innerDistances);
+        vtEndStage(frame, "surface");
+    }
+    if (layersToo && row->layers != 0) {
+        vtPeelPass_Draw(&renderer->peel, gl, &renderer->scene, choosePeelKind(frame));
+        vtEndStage(frame, "peel");
+    }
+    gl->BindVertexArray(renderer->emptyVertexArray);
+    if (layersToo && row->merge) {
+        vtMergePass_Draw(&renderer->merge, gl, &renderer->peel.depths);
+        vtEndStage(frame, "merge");
+    }
+    const vtRefractInputs inputs = {.surface = &renderer->surface.attributes,
+                                    .innerDistances = &renderer->surface.distances,
+                                    .layerDepths = &renderer->peel.depths,
+                                    .layerNormals = &renderer->peel.normals,
+                                    .mergedDepths = &renderer->merge.depths,
+                                    .scene = &renderer->scene,
+                                    .countReads = frame->countReads};
+    if (vtVariant_IsOrdered(variant)) {
+        drawOrdered(renderer, frame, variant, &inputs);
+    } else {
+        vtRefractPass_Draw(&renderer->refract, gl, frame->technique, variant, &inputs);
+        vtEndStage(frame, "refract");
+    }
+    if (frame->output == vt_outputPicture) {
+        vtShadePass_Draw(&renderer->shade, gl,
+                         &(vtShadeInputs){.paths = &renderer->refract.targets[0],
+                                          .surface = row->surface ? &renderer->surface.attributes : NULL,
+                                          .scene = &renderer->scene,
+                                          .environment = &renderer->environment,
+                                          .host = &renderer->host});
+        vtEndStage(frame, "shade");
+    }
+}
+
+void vtRenderer_DrawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo)
+{
+    if (!vtTechnique_Row(frame->technique)->traces) {
+        drawLayers(renderer, frame, layersToo);
+        return;
+    }
+    renderer->gl.BindVertexArray(renderer->emptyVertexArray);
+    vtTracePass_Draw(&renderer->trace, &renderer->gl, vtChooseTraceVariant(&renderer->scene, frame),
+                     &(vtTraceInputs){.scene = &renderer->scene,
+                                      .environment = &renderer->environment,
+                                      .host = &renderer->host,
+                                      .branches = vtFrame_BranchCount(frame)});
+    vtEndStage(frame, "trace");
+}
+
+const vtTexture* vtRenderer_Paths(const vtRenderer* renderer)
+{
+    return vtTechnique_Row(renderer->frame.technique)->traces ? &renderer->trace.paths
+                                                              : &renderer->refract.targets[0].paths;
+}
+
+const vtTexture* vtRenderer_Light(const vtRenderer* renderer)
+{
+    return vtTechnique_Row(renderer->frame.technique)->traces ? &renderer->trace.radiance
+                                                              : &renderer->shade.radiance;
+}
+
+void vtRenderer_DrawOverlay(const vtRenderer* renderer, const vtFrame* frame, const vtTexture* light)
+{
+    const bool surface = vtTechnique_Row(frame->technique)->surface;
+    vtOverlayPass_Draw(
+        &renderer->overlay, &renderer->gl,
+        &(vtOverlayInputs){.light = light,
+                           .depths = surface ? &renderer->surface.attributes : &renderer->trace.depths,
+                           .host = &renderer->host,
+                           .nearIsGreater = renderer->nearIsGreater},
+        frame->framebuffer, frame->x, frame->y);
+}

@@ -1,0 +1,89 @@
+// What the files of the renderer share: its state, and the steps of a frame that progressive sampling
+// repeats.
+#pragma once
+
+#include "base/slots.h"
+#include "gl/environment_buffer.h"
+#include "gl/scene_buffer.h"
+#include "passes/accumulate.h"
+#include "passes/merge.h"
+#include "passes/overlay.h"
+#include "passes/peel.h"
+#include "passes/present.h"
+#include "passes/refract.h"
+#include "passes/shade.h"
+#include "passes/surface.h"
+#include "passes/trace.h"
+#include "render/uniforms.h"
+
+struct vtRenderer {
+    vtGL gl;
+    GLuint uniformBuffer;
+    GLuint emptyVertexArray; // for passes that draw the viewport's triangle
+    vtSurfacePass surface;
+    vtPeelPass peel;
+    vtMergePass merge;
+    vtRefractPass refract;
+    vtShadePass shade;
+    vtTracePass trace;
+    vtPresentPass present;
+    vtAccumulatePass accumulate;
+    vtOverlayPass overlay;
+    vtHostPicture host; // of the frame
+    bool nearIsGreater; // in its depth buffer
+    // What there is to draw, and the handles of its geometry and instances.
+    vtSceneBuffer scene;
+    vtSlots geometrySlots, instanceSlots;
+    vtEnvironmentBuffer environment;
+    // What the next frame has to agree with to go on with the samples.
+    vtFrame frame;            // the last, as it was drawn
+    vtFrameUniforms uniforms; // its own, of the pixel's centre
+    int sampleEnd;            // the first sample not drawn yet; 0: nothing to go on with
+    // vtRenderer_DrawImage draws into this.
+    GLuint imageFramebuffer;
+    vtTexture image;
+};
+
+/// Fails with vt_errorArgument where there is no renderer or no other thing that the call needs.
+vtResult vtCheckGiven(const vtRenderer* renderer, const void* thing, const char* what, vtError* error);
+
+/// The frame as it is drawn: GL's state taken over, objects placed, settings resolved, the camera in the
+/// scene buffer's world. Fails with a sentence where it cannot be drawn.
+vtResult vtRenderer_ResolveFrame(vtRenderer* renderer, const vtFrame* asked, vtFrame* frame, vtCamera* camera,
+                                 vtError* error);
+
+/// Starts the programs that the frame draws with.
+void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs);
+
+vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
+                                  vtError* error);
+
+/// Everything up to the light, with the uniform block that was uploaded. `layersToo`: layers are peeled, too;
+/// else those of the sample before stay.
+void vtRenderer_DrawPaths(vtRenderer* renderer, const vtFrame* frame, bool layersToo);
+
+/// Where that has left the paths and the light.
+const vtTexture* vtRenderer_Paths(const vtRenderer* renderer);
+const vtTexture* vtRenderer_Light(const vtRenderer* renderer);
+
+/// Uploads the uniform block of one sample; `count` samples are in the sum with it.
+void vtRenderer_UploadSample(const vtRenderer* renderer, int sample, int count);
+
+/// Does the frame show the mean of several samples?
+static inline bool vtFrame_AddsSamples(const vtFrame* frame)
+{
+    return frame->output == vt_outputPicture && frame->firstSample + frame->samples > 1;
+}
+
+/// Keeps what the next frame has to agree with to go on with this one's samples. True where this one agrees
+/// with the one before.
+bool vtRenderer_KeepFrame(vtRenderer* renderer, const vtFrame* frame, const vtFrameUniforms* uniforms);
+
+/// The last pass of a frame that is drawn over the host's picture.
+void vtRenderer_DrawOverlay(const vtRenderer* renderer, const vtFrame* frame, const vtTexture* light);
+
+/// Draws the samples that are asked for and not there yet, and shows the mean of all. `sampleEnd`: of the
+/// frame before, if this one goes on with it, else 0.
+void vtRenderer_DrawSamples(vtRenderer* renderer, const vtFrame* frame, int sampleEnd);
+
+void vtEndStage(const vtFrame* frame, const char* stage);

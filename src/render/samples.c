@@ -1,0 +1,63 @@
+// Pictures of several samples a pixel, which go on from frame to frame while nothing changes.
+#include <string.h>
+
+#include "render/renderer.h"
+#include "technique/settings.h"
+#include "technique/technique.h"
+
+void vtRenderer_UploadSample(const vtRenderer* renderer, int sample, int count)
+{
+    const vtGL* gl = &renderer->gl;
+    const bool movesLayers = vtTechnique_Row(renderer->frame.technique)->layerSpace == vt_layersOfPicture;
+    const vtFrameUniforms uniforms = vtMoveUniforms(&renderer->uniforms, sample, count, movesLayers);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, VT_FRAME_BINDING, renderer->uniformBuffer);
+    gl->BufferSubData(GL_UNIFORM_BUFFER, 0, sizeof uniforms, &uniforms);
+}
+
+bool vtRenderer_KeepFrame(vtRenderer* renderer, const vtFrame* frame, const vtFrameUniforms* uniforms)
+{
+    const vtFrame* before = &renderer->frame;
+    // The numbers have the camera of the matrices in them, and where the picture goes.
+    const bool same = vtFrame_Same(frame, before) && frame->overlay == before->overlay &&
+                      frame->hostColor == before->hostColor && frame->hostDepth == before->hostDepth &&
+                      memcmp(uniforms, &renderer->uniforms, sizeof *uniforms) == 0;
+    renderer->frame = *frame;
+    renderer->frame.viewMatrix = renderer->frame.projectionMatrix = NULL; // the caller's
+    renderer->uniforms = *uniforms;
+    return same;
+}
+
+static void addSample(vtRenderer* renderer)
+{
+    vtAccumulatePass_Add(&renderer->accumulate, &renderer->gl, vtRenderer_Light(renderer));
+}
+
+void vtRenderer_DrawSamples(vtRenderer* renderer, const vtFrame* frame, int sampleEnd)
+{
+    const vtGL* gl = &renderer->gl;
+    vtAccumulatePass* accumulate = &renderer->accumulate;
+    gl->BindVertexArray(renderer->emptyVertexArray);
+    if (sampleEnd == 0) {
+        accumulate->count = 0;
+    } else if (accumulate->count == 0) { // sample 0 was drawn straight, and its light is still there
+        addSample(renderer);
+    }
+    bool layersToo = sampleEnd == 0;
+    const int end = frame->firstSample + frame->samples;
+    for (int i = frame->firstSample > sampleEnd ? frame->firstSample : sampleEnd; i < end; ++i) {
+        vtRenderer_UploadSample(renderer, i, accumulate->count + 1);
+        vtRenderer_DrawPaths(renderer, frame, layersToo);
+        addSample(renderer);
+        // Fitted to the object, the layers stay the same for every sample: a third less time, and 0.2 to 0.4
+        // dB further from the reference than with layers that move too (knot, bunny, 16 samples).
+        layersToo = vtTechnique_Row(frame->technique)->layerSpace == vt_layersOfPicture;
+        sampleEnd = i + 1;
+    }
+    vtRenderer_UploadSample(renderer, 0, accumulate->count); // should there have been no sample left to draw
+    if (vtFrame_IsOverlay(frame)) {
+        vtRenderer_DrawOverlay(renderer, frame, &accumulate->sums[accumulate->latest]);
+    } else {
+        vtAccumulatePass_Show(accumulate, gl, frame->framebuffer, frame->x, frame->y);
+    }
+    renderer->sampleEnd = sampleEnd;
+}
