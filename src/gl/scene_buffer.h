@@ -53,8 +53,8 @@ void vtSceneBuffer_RemoveInstance(vtSceneBuffer* buffer, uint32_t instance);
 /// vtPlaceObjects does.
 vtResult vtSceneBuffer_Place(vtSceneBuffer* buffer, const vtGL* gl, vtError* error);
 
-/// Uploads the table where buffer->fresh, objectCount * VT_OBJECT_TEXELS * 4, differs from what it holds;
-/// true where it does.
+/// Uploads the table of objects that buffer->fresh holds (objectCount * VT_OBJECT_TEXELS * 4 words), if it
+/// differs from the one on the GPU. True: it was uploaded.
 bool vtSceneBuffer_SetTable(vtSceneBuffer* buffer, const vtGL* gl);
 
 /// Objects of glass by the distance of the middle of their boxes, the nearest first.

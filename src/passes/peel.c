@@ -35,8 +35,10 @@ void vtPeelPass_Start(vtPeelPass* pass, const vtGL* gl, vtPeelKind kind, vtProgr
 vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers, int sets,
                            vtError* error)
 {
-    GLint most = 0;
-    gl->GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
+    GLint most = pass->depths.layers;
+    if (layers * sets > most) { // not asked every frame
+        gl->GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
+    }
     if (layers * sets > most) {
         return vtFail(error, vt_errorContext,
                       "scene: %d layers of each of %d objects of glass are more than this GPU has room for "

@@ -3,7 +3,8 @@
 
 #include "mesh/height_field.h"
 
-/// What spares looking at cells, apart from which nothing depends on them: they are there to be measured.
+/// Shortcuts that spare a ray the look at cells. What it meets is the same without them; each can be
+/// switched off to measure what it saves.
 typedef enum vtSeparation {
     vt_separateBox = 1,    ///< the ray is cut to the box of the heights; without it, to their rectangle only
     vt_separateShadow = 2, ///< cells under the ray's shadow; without it, all cells there are

@@ -9,6 +9,19 @@
 #include "render/renderer.h"
 #include "technique/technique.h"
 
+/// GL's first row is the bottom one.
+static void flipRows(uint8_t* rows, size_t rowBytes, int height)
+{
+    for (int top = 0, bottom = height - 1; top < bottom; ++top, --bottom) {
+        uint8_t *a = rows + rowBytes * (size_t)top, *b = rows + rowBytes * (size_t)bottom;
+        for (size_t i = 0; i < rowBytes; ++i) {
+            const uint8_t swapped = a[i];
+            a[i] = b[i];
+            b[i] = swapped;
+        }
+    }
+}
+
 vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error)
 {
     vtResult result = vtCheckGiven(renderer, frame, VT_ABOUT("the frame"), error);
@@ -41,63 +54,52 @@ vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_
     }
     gl->ReadPixels(0, 0, frame->width, frame->height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
-    // GL's first row is the bottom one.
-    size_t rowBytes = 4 * (size_t)frame->width;
-    for (int top = 0, bottom = frame->height - 1; top < bottom; ++top, --bottom) {
-        uint8_t* a = rgba + rowBytes * (size_t)top;
-        uint8_t* b = rgba + rowBytes * (size_t)bottom;
-        for (size_t i = 0; i < rowBytes; ++i) {
-            uint8_t swapped = a[i];
-            a[i] = b[i];
-            b[i] = swapped;
-        }
-    }
+    flipRows(rgba, 4 * (size_t)frame->width, frame->height);
     return vtCheckGL(gl, "reading the picture back", error);
 }
 
-/// The path target: four words a pixel, bottom row first, from vtAllocate.
-static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, vtError* error)
+/// The paths' target: four words a pixel, top row first, from vtAllocate; *count pixels.
+static vtResult readPaths(vtRenderer* renderer, uint32_t** paths, size_t* count, vtError* error)
 {
     const vtGL* gl = &renderer->gl;
     const int width = vtRenderer_Paths(renderer)->width, height = vtRenderer_Paths(renderer)->height;
     if (width == 0) {
         return vtFail(error, vt_errorArgument, "directions: no frame has been drawn that they could be of");
     }
-    vtTakeState(gl);
-    *paths = vtAllocate((size_t)width * (size_t)height, 16);
+    *count = (size_t)width * (size_t)height;
+    *paths = vtAllocate(*count, 16);
     if (*paths == NULL) {
         return vtFail(error, vt_errorMemory, "directions: out of memory for %d x %d pixels", width, height);
     }
-    gl->BindFramebuffer(GL_FRAMEBUFFER, vtTechnique_Row(renderer->frame.technique)->traces
-                                            ? renderer->trace.framebuffers[0]
-                                            : renderer->refract.framebuffers[0]);
+    vtTakeState(gl);
+    const GLuint* traced = renderer->trace.framebuffers; // either has the paths
+    gl->BindFramebuffer(GL_FRAMEBUFFER, !vtTechnique_Row(renderer->frame.technique)->traces
+                                            ? renderer->refract.framebuffers[0]
+                                        : traced[0] != 0 ? traced[0]
+                                                         : traced[1]);
     gl->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, *paths);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    flipRows((uint8_t*)*paths, 16 * (size_t)width, height);
     return vt_ok;
 }
 
 vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error)
 {
-    vtResult result = vtCheckGiven(renderer, directions, VT_ABOUT("where directions go"), error);
-    if (result != vt_ok) {
-        return result;
-    }
-    const int width = vtRenderer_Paths(renderer)->width, height = vtRenderer_Paths(renderer)->height;
     uint32_t* paths;
-    result = readPaths(renderer, &paths, error);
+    size_t count;
+    vtResult result = vtCheckGiven(renderer, directions, VT_ABOUT("where directions go"), error);
+    result = result == vt_ok ? readPaths(renderer, &paths, &count, error) : result;
     if (result != vt_ok) {
         return result;
     }
-    for (int row = 0; row < height; ++row) {
-        const uint32_t* from = paths + 4 * (size_t)width * (size_t)(height - 1 - row);
-        float* to = directions + 3 * (size_t)width * (size_t)row;
-        for (int column = 0; column < width; ++column, from += 4, to += 3) {
-            int state = (int)(from[3] & 255u);
-            if (state == VT_PATH_EXITED || (state == VT_PATH_OPAQUE && ((from[3] >> 8) & 255u) > 0)) {
-                memcpy(to, from, 3 * sizeof(float));
-            } else {
-                to[0] = to[1] = to[2] = state == VT_PATH_LOST ? 2.0f : 0.0f;
-            }
+    for (size_t i = 0; i < count; ++i) {
+        const uint32_t* from = paths + 4 * i;
+        float* to = directions + 3 * i;
+        const int state = (int)(from[3] & 255u);
+        if (state == VT_PATH_EXITED || (state == VT_PATH_OPAQUE && ((from[3] >> 8) & 255u) > 0)) {
+            memcpy(to, from, 3 * sizeof(float));
+        } else {
+            to[0] = to[1] = to[2] = state == VT_PATH_LOST ? 2.0f : 0.0f;
         }
     }
     vtFree(paths);
@@ -106,21 +108,15 @@ vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtEr
 
 vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error)
 {
-    vtResult result = vtCheckGiven(renderer, states, VT_ABOUT("where states go"), error);
-    if (result != vt_ok) {
-        return result;
-    }
-    const int width = vtRenderer_Paths(renderer)->width, height = vtRenderer_Paths(renderer)->height;
     uint32_t* paths;
-    result = readPaths(renderer, &paths, error);
+    size_t count;
+    vtResult result = vtCheckGiven(renderer, states, VT_ABOUT("where states go"), error);
+    result = result == vt_ok ? readPaths(renderer, &paths, &count, error) : result;
     if (result != vt_ok) {
         return result;
     }
-    for (int row = 0; row < height; ++row) {
-        const uint32_t* from = paths + 4 * (size_t)width * (size_t)(height - 1 - row);
-        for (int column = 0; column < width; ++column, from += 4) {
-            *states++ = from[3];
-        }
+    for (size_t i = 0; i < count; ++i) {
+        states[i] = paths[4 * i + 3];
     }
     vtFree(paths);
     return vtCheckGL(&renderer->gl, "reading states back", error);

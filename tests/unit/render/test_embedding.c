@@ -499,6 +499,11 @@ static void glassOfAirChangesNothing(void** state)
 static void aBallTurnsThePictureRound(void** state)
 {
     Fixture* fixture = *state;
+    vtError error;
+    vtRenderer* shared =
+        fixture->renderer; // this one has drawn nothing else, so its paths are of the overlay
+    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
+              error);
     setShape(fixture->renderer, "sphere");
     for (int i = 0; i < 2; ++i) {
         Host host;
@@ -512,10 +517,15 @@ static void aBallTurnsThePictureRound(void** state)
         assert_int_equal(right[0], redHalf);
         assert_int_equal(right[1], 0);
         assert_int_equal(pixelAt(fixture, 2, side / 2)[0], redHalf); // beside the ball
+        assert_ok(vtRenderer_ReadDirections(fixture->renderer, fixture->directions, &error), error);
+        const float* d = fixture->directions + 3 * (side * side / 2 + side / 2);
+        assert_near(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], 1.0f, 1e-4f);
         assert_int_equal(pixelAt(fixture, side - 3, side / 2)[1], greenHalf);
         host.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
         freeHost(&host);
     }
+    vtDestroyRenderer(fixture->renderer);
+    fixture->renderer = shared;
 }
 
 /// Hidden by a depth texture, and by the framebuffer's own depth; an eye ray's hit is 3 from the eye in the
