@@ -119,11 +119,11 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     vtFrame resolved;
     vtCamera camera;
     const vtFrame* frame = &resolved;
-    const vtGL* gl = &renderer->gl;
     vtResult result = vtRenderer_ResolveFrame(renderer, asked, &resolved, &camera, error);
     if (result != vt_ok) {
         return result;
     }
+    const vtGL* gl = &renderer->gl;
     const GLuint hidden = vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? frame->hostDepth : 0;
     vtHostPicture_Set(&renderer->host, gl, frame->hostColor, hidden);
     renderer->nearIsGreater = camera.clip[camera.orthographic ? 0 : 1] > 0.0f;
