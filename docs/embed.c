@@ -38,7 +38,8 @@ int main(int argc, char** argv)
 
     // 2. The renderer, with the context's function loader.
     vtRenderer* renderer;
-    if (vtCreateRenderer(&(vtRendererDef){context.getProcAddress}, &renderer, &error) != vt_ok) {
+    if (vtCreateRenderer(&(vtRendererDef){.getProcAddress = context.getProcAddress}, &renderer, &error) !=
+        vt_ok) {
         return fail("renderer", &error);
     }
 

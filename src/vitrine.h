@@ -581,8 +581,14 @@ VT_API void vtDestroyTracer(vtTracer* tracer);
 typedef void (*vtProc)(void);
 typedef vtProc vtGetProcAddressFcn(const char* name);
 
+/// What is no failure and yet worth knowing: one line for each thing that is approximated or left out,
+/// without a line end; it lives as long as the call. Not called in builds for web pages.
+typedef void vtLogFcn(const char* line, void* userData);
+
 typedef struct vtRendererDef {
     vtGetProcAddressFcn* getProcAddress; ///< e.g. glfwGetProcAddress; NULL only on the web
+    vtLogFcn* log;                       ///< called from within a renderer's calls; NULL: nothing is said
+    void* logData;                       ///< passed to log
 } vtRendererDef;
 
 typedef struct vtRenderer vtRenderer;

@@ -41,8 +41,8 @@ vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* er
         result = vtCreateContext(backend, &session->context, error);
     }
     if (result == vt_ok) {
-        result =
-            vtCreateRenderer(&(vtRendererDef){session->context.getProcAddress}, &session->renderer, error);
+        result = vtCreateRenderer(&(vtRendererDef){.getProcAddress = session->context.getProcAddress},
+                                  &session->renderer, error);
     }
     if (result == vt_ok) {
         result = setScene(session, error);

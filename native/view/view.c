@@ -48,7 +48,8 @@ vtResult vtRunView(const vtOptions* options, vtError* error)
         result = vtCreateWindow("Vitrine", frame.width, frame.height, &window, error);
     }
     if (result == vt_ok) {
-        result = vtCreateRenderer(&(vtRendererDef){vtWindow_GetProcAddress()}, &renderer, error);
+        result =
+            vtCreateRenderer(&(vtRendererDef){.getProcAddress = vtWindow_GetProcAddress()}, &renderer, error);
     }
     if (result == vt_ok) {
         result = vtRenderer_SetScene(renderer, &input.scene, error);

@@ -1,4 +1,5 @@
 // What there is to draw: geometry, its instances, images and the environment, all at once or one by one.
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -37,6 +38,68 @@ static vtResult endChange(vtRenderer* renderer, vtResult result, vtError* error)
     return result;
 }
 
+// ---------------------------------------------------------------------------------------------- the log
+
+#ifdef VT_WITH_ABOUT
+static void say(const vtRenderer* renderer, const char* format, ...) VT_PRINTF(2, 3);
+static void say(const vtRenderer* renderer, const char* format, ...)
+{
+    char line[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    if (renderer->log != NULL) {
+        renderer->log(line, renderer->logData);
+    }
+}
+
+/// What of a geometry is not drawn as its mesh has it.
+static void tellOfGeometry(const vtRenderer* renderer, uint32_t at)
+{
+    const vtGeometryBuffer* geometry = &renderer->scene.geometry.items[at];
+    const vtMesh* shape = &renderer->scene.geometry.shapes[at];
+    if (geometry->overlaps) {
+        say(renderer,
+            "mesh %u: parts of it run into each other; as glass it is searched from both sides, which is "
+            "slower",
+            at);
+    }
+    if (shape->openEdgeCount > 0 && shape->indexCount > 0) {
+        say(renderer, "mesh %u: %u open edges; as glass it has no volume that would absorb or enclose", at,
+            shape->openEdgeCount);
+    }
+}
+
+static void tellOfImages(const vtRenderer* renderer, const vtImage* images, uint32_t count)
+{
+    uint32_t missing = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        missing += images[i].pixels == NULL;
+    }
+    if (missing > 0) {
+        say(renderer, "%u of %u pictures are not decoded and drawn as white", missing, count);
+    }
+}
+
+static void tellOfScene(const vtRenderer* renderer, const vtScene* scene)
+{
+    if (scene->allGlass) {
+        say(renderer, "no material says that it is glass, so all were made glass");
+    }
+    for (uint32_t i = 0; i < scene->meshCount; ++i) {
+        if (vtScene_Uses(scene, i, false)) {
+            tellOfGeometry(renderer, i);
+        }
+    }
+    tellOfImages(renderer, scene->images, scene->imageCount);
+}
+#else
+#define tellOfGeometry(renderer, at)
+#define tellOfImages(renderer, images, count)
+#define tellOfScene(renderer, scene)
+#endif
+
 // ---------------------------------------------------------------------------------------- all at once
 
 vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError* error)
@@ -52,6 +115,7 @@ vtResult vtRenderer_SetScene(vtRenderer* renderer, const vtScene* scene, vtError
         renderer->scene = fresh;
         vtSlots_Clear(&renderer->geometrySlots);
         vtSlots_Clear(&renderer->instanceSlots);
+        tellOfScene(renderer, scene);
     }
     return endChange(renderer, result, error);
 }
@@ -140,6 +204,7 @@ vtResult vtRenderer_AddGeometry(vtRenderer* renderer, const vtMesh* mesh, vtGeom
     }
     if (result == vt_ok) {
         vtSlots_Add(&renderer->geometrySlots, at, &id->index1, &id->generation);
+        tellOfGeometry(renderer, at);
     }
     return endChange(renderer, result, error);
 }
@@ -310,6 +375,9 @@ vtResult vtRenderer_SetImages(vtRenderer* renderer, const vtImage* images, uint3
     // The scene only lends its images to the upload.
     const vtScene lent = {.images = (vtImage*)(uintptr_t)images, .imageCount = count};
     result = vtImageArray_Upload(&renderer->scene.images, &renderer->gl, &lent, error);
+    if (result == vt_ok) {
+        tellOfImages(renderer, images, count);
+    }
     return endChange(renderer, result, error);
 }
 

@@ -30,6 +30,8 @@ vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** out, vtError* e
         return result;
     }
     const vtGL* gl = &renderer->gl;
+    renderer->log = def->log;
+    renderer->logData = def->logData;
     vtTakeState(gl);
     renderer->scene.relief = VT_NO_GEOMETRY;
     gl->GenVertexArrays(1, &renderer->emptyVertexArray);

@@ -18,6 +18,8 @@
 
 struct vtRenderer {
     vtGL gl;
+    vtLogFcn* log;
+    void* logData;
     GLuint uniformBuffer;
     GLuint emptyVertexArray; // for passes that draw the viewport's triangle
     vtSurfacePass surface;

@@ -29,7 +29,7 @@ static vtResult draw(const vtScene* scene, uint8_t* pixels, vtError* error)
     frame.view = vtViewOfScene(scene, 45.0f, (float)width / height);
     vtResult result = vtCreateEnvironment("studio", &environment, error);
     if (result == vt_ok) {
-        result = vtCreateRenderer(&(vtRendererDef){OSMesaGetProcAddress}, &renderer, error);
+        result = vtCreateRenderer(&(vtRendererDef){.getProcAddress = OSMesaGetProcAddress}, &renderer, error);
     }
     if (result != vt_ok) {
         return result;

@@ -20,7 +20,8 @@ static inline int setUp(void** state)
     Fixture* fixture = calloc(1, sizeof *fixture);
     vtError error;
     assert_ok(vtCreateContext(vt_backendAuto, &fixture->context, &error), error);
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
+    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
+                               &fixture->renderer, &error),
               error);
     *state = fixture;
     return 0;

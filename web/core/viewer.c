@@ -26,7 +26,7 @@ EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height)
         viewer->frame.height = height;
         viewer->wanted = viewer->frame;
         viewer->sample = VT_MAX_SAMPLES; // nothing to draw yet
-        vtRendererDef def = {NULL};      // on the web GL is linked
+        vtRendererDef def = {0};         // on the web GL is linked
         vtCreateRenderer(&def, &viewer->renderer, &viewer->error);
     }
     return viewer;

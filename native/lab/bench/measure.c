@@ -76,7 +76,8 @@ vtResult vtBench_Probe(vtSession* session, vtBenchRow* row, vtError* error)
 {
     vtRenderer* renderer = NULL;
     StageClock clock;
-    vtResult result = vtCreateRenderer(&(vtRendererDef){session->context.getProcAddress}, &renderer, error);
+    vtResult result = vtCreateRenderer(&(vtRendererDef){.getProcAddress = session->context.getProcAddress},
+                                       &renderer, error);
     if (result == vt_ok) {
         result = vtRenderer_SetEnvironment(renderer, &session->input.environment, error);
     }

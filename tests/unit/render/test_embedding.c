@@ -144,7 +144,8 @@ static void hostileStateDoesNotMatter(void** state)
     for (size_t i = 0; i < sizeof techniques / sizeof techniques[0]; ++i) {
         vtFrame frame = makeFrame(techniques[i]);
         vtRenderer* renderer;
-        assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &renderer, &error),
+        assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
+                                   &renderer, &error),
                   error);
         assert_ok(vtRenderer_SetScene(renderer, &scene, &error), error);
         assert_ok(vtRenderer_SetEnvironment(renderer, &environment, &error), error);
@@ -152,7 +153,8 @@ static void hostileStateDoesNotMatter(void** state)
         vtDestroyRenderer(renderer);
 
         makeHostile(&host);
-        assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &renderer, &error),
+        assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
+                                   &renderer, &error),
                   error);
         makeHostile(&host);
         assert_ok(vtRenderer_SetScene(renderer, &scene, &error), error);
@@ -502,7 +504,8 @@ static void aBallTurnsThePictureRound(void** state)
     vtError error;
     vtRenderer* shared =
         fixture->renderer; // this one has drawn nothing else, so its paths are of the overlay
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
+    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
+                               &fixture->renderer, &error),
               error);
     setShape(fixture->renderer, "sphere");
     for (int i = 0; i < 2; ++i) {

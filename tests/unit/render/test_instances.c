@@ -75,7 +75,9 @@ static vtRenderer* createOther(const Fixture* fixture)
 {
     vtRenderer* other;
     vtError error;
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &other, &error), error);
+    assert_ok(
+        vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress}, &other, &error),
+        error);
     return other;
 }
 
@@ -189,6 +191,37 @@ static void whatCannotBeDrawnTogetherIsSaid(void** state)
     assert_ok(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error), error);
 }
 
+static void keepLine(const char* line, void* userData)
+{
+    char* lines = userData;
+    snprintf(lines + strlen(lines), 512 - strlen(lines), "%s\n", line);
+}
+
+/// What is approximated is told once, by the host's function.
+static void whatIsApproximatedIsSaid(void** state)
+{
+    Fixture* fixture = *state;
+    char lines[512] = "";
+    vtRenderer* renderer;
+    vtError error;
+    vtMesh plane;
+    const vtImage image = {.width = 1, .height = 1};
+    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress,
+                                                .log = keepLine,
+                                                .logData = lines},
+                               &renderer, &error),
+              error);
+    setShape(renderer, "sphere"); // as it is
+    assert_string_equal(lines, "");
+    assert_ok(vtCreateShape("plane", &plane, &error), error);
+    assert_ok(vtRenderer_SetMesh(renderer, &plane, &error), error);
+    assert_non_null(strstr(lines, "mesh 0: 4 open edges"));
+    assert_ok(vtRenderer_SetImages(renderer, &image, 1, &error), error);
+    assert_non_null(strstr(lines, "1 of 1 pictures"));
+    vtDestroyMesh(&plane);
+    vtDestroyRenderer(renderer);
+}
+
 /// Misuse is a result, and a sentence.
 static void misuseIsAResult(void** state)
 {
@@ -202,8 +235,8 @@ static void misuseIsAResult(void** state)
     bool ready;
     const vtResult results[] = {
         vtCreateRenderer(NULL, &made, &error),
-        vtCreateRenderer(&(vtRendererDef){NULL}, &made, &error),
-        vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, NULL, &error),
+        vtCreateRenderer(&(vtRendererDef){.getProcAddress = NULL}, &made, &error),
+        vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress}, NULL, &error),
         vtRenderer_Draw(renderer, &frame, &error), // there is no scene
         vtRenderer_Draw(NULL, &frame, &error),
         vtRenderer_Draw(renderer, NULL, &error),
@@ -243,6 +276,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(geometryComesAndGoes, setUp, tearDown),
         cmocka_unit_test_setup_teardown(handlesOfWhatIsGoneAreRefused, setUp, tearDown),
         cmocka_unit_test_setup_teardown(whatCannotBeDrawnTogetherIsSaid, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(whatIsApproximatedIsSaid, setUp, tearDown),
         cmocka_unit_test_setup_teardown(misuseIsAResult, setUp, tearDown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -289,7 +289,9 @@ static void twoRenderersLiveSideBySide(void** state)
     Fixture* fixture = *state;
     vtError error;
     vtRenderer* second;
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &second, &error), error);
+    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress}, &second,
+                               &error),
+              error);
     setShape(fixture->renderer, "goblet");
     setEnvironment(fixture->renderer, "sky");
     vtFrame frame = smallFrame(vt_techniqueLayered), otherFrame = smallFrame(vt_techniqueLayered);

@@ -361,7 +361,8 @@ static void drawAfresh(Fixture* fixture, const vtScene* scene, const char* envir
 {
     vtRenderer* used = fixture->renderer;
     vtError error;
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
+    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
+                               &fixture->renderer, &error),
               error);
     setScene(fixture->renderer, scene);
     setEnvironment(fixture->renderer, environment);

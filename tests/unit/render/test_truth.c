@@ -39,7 +39,8 @@ static int setUp(void** state)
     vtError error;
     fixture->data = getenv("VITRINE_DATA");
     assert_ok(vtCreateContext(vt_backendAuto, &fixture->context, &error), error);
-    assert_ok(vtCreateRenderer(&(vtRendererDef){fixture->context.getProcAddress}, &fixture->renderer, &error),
+    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
+                               &fixture->renderer, &error),
               error);
     *state = fixture;
     return 0;
