@@ -45,6 +45,7 @@ function(shorten variable)
     string(REPLACE "@${word}@" "${short}" text "${text}")
   endforeach()
   string(REPLACE "@" "" text "${text}")
+  string(REGEX REPLACE "([0-9])\\.0([^0-9])" "\\1.\\2" text "${text}") # 1.0 is 1. to GLSL
   # Lines become one, but for those of the preprocessor.
   string(REGEX REPLACE "\n\n+" "\n" text "${text}")
   string(REGEX REPLACE "(#[^\n]*)\n" "\\1@" text "${text}")

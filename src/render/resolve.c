@@ -42,8 +42,7 @@ static vtResult checkHost(const vtFrame* frame, const vtCamera* camera, const vt
                       id);
     }
     if (!VT_WITH_HOST && (frame->overlay || frame->hostColor != 0)) {
-        return vtFail(error, vt_errorArgument,
-                      "this build, for web pages, draws nothing over a host's picture");
+        return vtFail(error, vt_errorArgument, "a host's picture takes a native build");
     }
     if (frame->overlay && !row->surface && !row->traces) {
         return vtFail(error, vt_errorArgument,

@@ -67,8 +67,7 @@ vtResult vtCheckMatrices(const vtFrame* frame, vtError* error)
         return vt_ok;
     }
     if (!VT_WITH_HOST) {
-        return vtFail(error, vt_errorArgument,
-                      "this build, for web pages, takes a view by eye and target only");
+        return vtFail(error, vt_errorArgument, "views are matrices in native builds only");
     }
     if (!areFinite(view) || !isRigid(view)) {
         return vtFail(error, vt_errorArgument,
