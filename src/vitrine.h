@@ -518,7 +518,7 @@ typedef struct vtFrame {
     const float *viewMatrix, *projectionMatrix;
     /// Over what the framebuffer has: drawn only where there is something of the scene, blended at its edges,
     /// tested against the framebuffer's depth, if it has any, and written with its own. Needs the matrices,
-    /// and a technique with a first surface (not kay's). A build for web pages has none of this.
+    /// and a technique with a first surface (not kay's). A build for web pages looks at none of this.
     /// Default false
     bool overlay;
     /// GL names of 2-D textures with the host's picture and its depth, as large as the framebuffer, which
