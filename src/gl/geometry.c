@@ -330,11 +330,12 @@ static vtResult prepareAll(vtGeometryStore* store, const vtGL* gl, const vtMesh*
     vtResult result = vt_ok;
     for (uint32_t i = 0; i < count && result == vt_ok; ++i) {
         const vtHierarchy* found;
-        if (uses[i].any && meshes[i].indexCount > 0) {
-            result = findHierarchy(gl, &meshes[i], &built[i], &found, error);
-            triangles += meshes[i].indexCount / 3;
+        if (!uses[i].any || meshes[i].indexCount == 0) {
+            continue;
         }
-        if (uses[i].any && meshes[i].indexCount > 0 && result == vt_ok) {
+        triangles += meshes[i].indexCount / 3;
+        result = findHierarchy(gl, &meshes[i], &built[i], &found, error);
+        if (result == vt_ok) {
             records += found->recordCount;
             attributes += usesAttributes(&meshes[i], uses[i]) ? found->recordCount : 0;
             result = records <= mostRecords(gl) ? vt_ok : failTooMany(gl, &meshes[i], triangles, error);

@@ -46,6 +46,16 @@ static const char* const samplerNames[vt_samplerCount] = {
     [vt_samplerHostDepth] = "u_hostDepth",
 };
 
+void vtProgramDef_SetFragment(vtProgramDef* def, const vtChunk* const* chunks, size_t count)
+{
+    int used = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (chunks[i] != NULL) {
+            def->fragment[used++] = chunks[i];
+        }
+    }
+}
+
 static int countLines(const char* text)
 {
     int lines = 0;

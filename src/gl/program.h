@@ -19,6 +19,9 @@ typedef struct vtProgramDef {
     const char* uniforms[VT_MAX_UNIFORMS];  ///< NULL-terminated; what vtProgram.uniforms holds
 } vtProgramDef;
 
+/// The fragment shader's chunks: those of a list that are not NULL, in its order.
+void vtProgramDef_SetFragment(vtProgramDef* def, const vtChunk* const* chunks, size_t count);
+
 /// A program in two steps, so that a driver can work at several at once, and the caller at something else:
 /// started, nothing of it is asked for; finished, it can be used.
 typedef struct vtProgram {

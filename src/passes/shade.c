@@ -26,12 +26,7 @@ static vtProgramDef describe(bool opaque, bool surface, bool host)
         &vtChunk_shade_frag,
     };
     vtProgramDef def = {.name = "shade", .vertex = {&vtChunk_screen_vert}};
-    int count = 0;
-    for (size_t i = 0; i < sizeof chunks / sizeof chunks[0]; ++i) {
-        if (chunks[i] != NULL) {
-            def.fragment[count++] = chunks[i];
-        }
-    }
+    vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
     return def;
 }
 

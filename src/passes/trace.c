@@ -54,12 +54,7 @@ static vtProgramDef describe(vtTraceVariant variant)
         &vtChunk_trace_frag,
     };
     vtProgramDef def = {.name = "trace", .vertex = {&vtChunk_screen_vert}, .uniforms = {"u_branches"}};
-    int count = 0;
-    for (size_t i = 0; i < sizeof chunks / sizeof chunks[0]; ++i) {
-        if (chunks[i] != NULL) {
-            def.fragment[count++] = chunks[i];
-        }
-    }
+    vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
     return def;
 }
 
