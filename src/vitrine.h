@@ -496,8 +496,8 @@ typedef struct vtFrame {
                      ///< the preset's
     int layerSize;   ///< longer side of the layer textures, texels, 16 to 8192; 0: that of the picture
     vtBackSurface backSurface; ///< wyman; default vt_backSecond
-    float transmittance; ///< 0 to 1: of a surface (kay-linear), of a unit of length (kay-thickness); default
-                         ///< 0.8
+    float transmittance; ///< 0 to 1: of a surface (kay-linear), of a wall straight through (kay-thickness);
+                         ///< default 0.8
     float maxTransmittance; ///< kay-nonlinear, 0 to 1; default 0.95
     float minTransmittance; ///< kay-nonlinear, 0 to maxTransmittance; default 0.2
     float power;            ///< kay-nonlinear, 0 to 100; default 3

@@ -27,7 +27,7 @@ vec3 backNormal(vec2 position)
 }
 
 // Takes the path out through a back side of outward normal N, after `distance` in glass of that object. Beyond the
-// critical angle it is clamped to it, as Wyman 2005 does: the ray leaves along the surface.
+// critical angle it is clamped to it, as Wyman 2005 does: the ray leaves along the surface, with all of its light.
 void leaveClamped(inout Path p, vec3 N, int object, float distance)
 {
     absorb(p, uvec4(uint(object + 1), uvec3(0u)), distance);
@@ -40,7 +40,7 @@ void leaveClamped(inout Path p, vec3 N, int object, float distance)
     p.reflected = k < 0.0;
     ++p.events;
     if (u_scene.z != 0) {
-        float F = fresnel(abs(c), eta);
+        float F = p.reflected ? 0.0 : fresnel(abs(c), eta);
         setAside(p, reflect(T, N), F, uvec4(0u));
         p.transmittance *= 1.0 - F;
     }

@@ -62,12 +62,12 @@ static inline float vtNonlinearTransmittance(float cosine, float maximum, float 
     return (maximum - minimum) * (1.0f - powf(1.0f - vtClamp(cosine, 0.0f, 1.0f), power)) + minimum;
 }
 
-/// Kay & Greenberg 1979, equations 4 and 5 and the way through a wall of constant thickness along its normal,
+/// Kay & Greenberg 1979, equations 4 and 5 and the way through a wall whose thickness along its normal is 1,
 /// for a ray along +z that meets the unit normal N (N.z <= 0). Gives the path's length; shift is its x and y.
-static inline float vtWallPath(vtVec3 N, float ior, float thickness, float shift[2])
+static inline float vtWallPath(vtVec3 N, float ior, float shift[2])
 {
     float cosine = sqrtf(ior * ior - 1.0f + N.z * N.z) / ior;
-    float path = thickness / fmaxf(cosine, 1e-3f);
+    float path = 1.0f / fmaxf(cosine, 1e-3f);
     shift[0] = path * (-N.z * N.x / ior - cosine * N.x);
     shift[1] = path * (-N.z * N.y / ior - cosine * N.y);
     return path;

@@ -25,13 +25,13 @@ static void extendLayerSize(const vtFrame* frame, const vtFrustum* frustum, int*
 
 /// The frustum of the one set of layers, if there is one, and the size of all sets.
 static vtFrustum chooseLayers(const vtSceneBuffer* scene, const vtFrame* frame, const vtCamera* camera,
-                              const vtFrustum* picture, int* width, int* height)
+                              int* width, int* height)
 {
     const vtLayerSpace space = vtTechnique_Row(frame->technique)->layerSpace;
     if (space == vt_layersOfPicture) {
         *width = frame->width;
         *height = frame->height;
-        return *picture;
+        return vtMakePictureFrustum(camera, scene->glassMin, scene->glassMax);
     }
     *width = *height = 0;
     const vtFrustum all = vtMakeLayerFrustum(camera, scene->glassMin, scene->glassMax);
@@ -80,9 +80,9 @@ void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, const vtCa
 {
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     const vtVec3 low = scene->glassMin, high = scene->glassMax;
-    vtFrustum picture = vtMakePictureFrustum(camera, scene->low, scene->high);
+    const vtFrustum picture = vtMakePictureFrustum(camera, scene->low, scene->high);
     int layerWidth, layerHeight;
-    const vtFrustum layers = chooseLayers(scene, frame, camera, &picture, &layerWidth, &layerHeight);
+    const vtFrustum layers = chooseLayers(scene, frame, camera, &layerWidth, &layerHeight);
     const vtVec3 extent = vtSub(high, low);
     const float wall = frame->wallThickness > 0.0f ? frame->wallThickness
                                                    : 0.06f * fmaxf(extent.x, fmaxf(extent.y, extent.z));

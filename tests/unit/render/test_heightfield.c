@@ -63,29 +63,12 @@ static vtMesh makeRelief(HeightFcn* heightOf, int width, int height, float depth
     return mesh;
 }
 
-/// The eye ray of a pixel, row 0 on top.
-static vtVec3 eyeRay(const vtFrame* frame, int column, int row)
-{
-    const vtVec3 forward = vtNormalize(vtSub(frame->view.target, frame->view.eye));
-    const vtVec3 right = vtNormalize(vtCross(forward, (vtVec3){0.0f, 1.0f, 0.0f}));
-    const vtVec3 up = vtCross(right, forward);
-    const float tangent = tanf(frame->view.fovY * VT_PI / 360.0f);
-    const float x = (((float)column + 0.5f) / (float)frame->width * 2.0f - 1.0f) * tangent;
-    const float y = (1.0f - ((float)row + 0.5f) / (float)frame->height * 2.0f) * tangent;
-    return vtNormalize(vtMulAdd(vtMulAdd(forward, x, right), y, up));
-}
-
 /// Snell's law: behind a surface of normal N, against I.
 static vtVec3 refractRay(vtVec3 I, vtVec3 N, float eta)
 {
     const float c = -vtDot(N, I), k = 1.0f - eta * eta * (1.0f - c * c);
     assert_true(k > 0.0f);
     return vtMulAdd(vtScale(I, eta), eta * c - sqrtf(k), N);
-}
-
-static float degreesBetween(vtVec3 a, vtVec3 b)
-{
-    return atan2f(vtLength(vtCross(a, b)), vtDot(a, b)) * 180.0f / VT_PI;
 }
 
 static vtFrame frameAt(vtVec3 eye, vtVec3 target, float fovY)
