@@ -1,14 +1,14 @@
-// The techniques of Kay & Greenberg 1979 against the paper's own procedure, which this file carries out as it is
-// told there: the background first, then surface after surface from the back, each of which maps the image made
-// so far onto itself.
+// The techniques of Kay & Greenberg 1979 against the paper's own procedure, which this file carries out as it
+// is told there: the background first, then surface after surface from the back, each of which maps the image
+// made so far onto itself.
 #include "image/image.h"
 #include "light/environment.h"
 #include "rendering.h"
 
 typedef enum Shape { shapeSheet, shapeNearHalf, shapeFarHalf } Shape;
 
-/// A surface that a ray meets at most once: a sheet, or one half of the unit ball about the origin, as the eye
-/// sees it.
+/// A surface that a ray meets at most once: a sheet, or one half of the unit ball about the origin, as the
+/// eye sees it.
 typedef struct Surface {
     Shape shape;
     Sheet sheet;
@@ -101,7 +101,8 @@ static void paint(const vtFrame* frame, const vtEnvironment* environment, const 
             const int old = row * side + column;
             const vtVec3 sum = vtMulAdd(vtScale(before[old], t), 1.0f - t, new); // 1
             image[p] = vtAdd(sum, (vtVec3){highlight, highlight, highlight});
-            for (int k = 0; k < 2; ++k) { // the part of the shift that a pixel is too coarse for is carried on
+            for (int k = 0; k < 2;
+                 ++k) { // the part of the shift that a pixel is too coarse for is carried on
                 places[p][k] = placesBefore[old][k] + place[k] - ((float)(k == 0 ? column : row) + 0.5f);
             }
         }
@@ -122,8 +123,8 @@ static vtFrame kayFrame(vtTechnique technique, int layers)
     return frame;
 }
 
-/// Draws, and wants the picture that the procedure paints but for a few pixels, where an edge falls into one pixel
-/// or the next.
+/// Draws, and wants the picture that the procedure paints but for a few pixels, where an edge falls into one
+/// pixel or the next.
 static void assertPainted(Fixture* fixture, const vtFrame* frame, const Surface* surfaces, int count)
 {
     // Dark below and bright above, slightly coloured: what is shifted is seen, and nothing is cut at white.
@@ -174,16 +175,18 @@ static void ballIsPaintedFromItsBack(void** state)
     }
 }
 
-// Two sheets face the eye, at the back and, before the right half, at the front; the one between them leans, covers
-// the left and the middle, and shifts to the right what lies behind it. At its right edge the shifted place has one
-// surface fewer, under the front sheet one more than where the ray came from.
+// Two sheets face the eye, at the back and, before the right half, at the front; the one between them leans,
+// covers the left and the middle, and shifts to the right what lies behind it. At its right edge the shifted
+// place has one surface fewer, under the front sheet one more than where the ray came from.
 static void shiftedPlaceShowsWhatLiesBehind(void** state)
 {
     Fixture* fixture = *state;
     const float sine = 0.5f, cosine = 0.8660254f;
     const Surface sheets[3] = {
         {.sheet = {.corner = {-1.3f, -1.2f, -1.2f}, .across = {2.6f, 0, 0}, .up = {0, 2.4f, 0}}},
-        {.sheet = {.corner = {-1.2f, -0.8f, -0.9f}, .across = {1.6f * cosine, 0, 1.6f * sine}, .up = {0, 1.6f, 0}}},
+        {.sheet = {.corner = {-1.2f, -0.8f, -0.9f},
+                   .across = {1.6f * cosine, 0, 1.6f * sine},
+                   .up = {0, 1.6f, 0}}},
         {.sheet = {.corner = {-0.2f, -0.9f, 0.5f}, .across = {0.3f, 0, 0}, .up = {0, 0.9f, 0}}},
     };
     Sheet mesh[3];

@@ -15,14 +15,13 @@ static vtFrame frontFrame(float ior, float fovY)
     return frame;
 }
 
-/// Snell's law at a surface of normal N, against I; beyond the critical angle Wyman limits the angle of incidence
-/// to it, so that the ray leaves along the surface.
+/// Snell's law at a surface of normal N, against I; beyond the critical angle Wyman limits the angle of
+/// incidence to it, so that the ray leaves along the surface.
 static vtVec3 bendClamped(vtVec3 I, vtVec3 N, float eta, bool* clamped)
 {
     const float c = -vtDot(N, I), k = 1.0f - eta * eta * (1.0f - c * c);
     *clamped = k < 0.0f;
-    return *clamped ? vtNormalize(vtMulAdd(I, c, N))
-                    : vtMulAdd(vtScale(I, eta), eta * c - sqrtf(k), N);
+    return *clamped ? vtNormalize(vtMulAdd(I, c, N)) : vtMulAdd(vtScale(I, eta), eta * c - sqrtf(k), N);
 }
 
 /// Where a pixel's path must leave: in at N1, out at the surface of outward normal N2.
@@ -37,8 +36,8 @@ static float degreesOff(const Fixture* fixture, int column, int row, vtVec3 want
     return degreesBetween(vtMakeVec3(fixture->directions + 3 * (row * side + column)), wanted);
 }
 
-// The guess of the distance, in closed form for the unit ball: dV is the chord along the view, dN the diameter,
-// P2 lies on neither, and the back side behind its pixel has the normal.
+// The guess of the distance, in closed form for the unit ball: dV is the chord along the view, dN the
+// diameter, P2 lies on neither, and the back side behind its pixel has the normal.
 static void ballFollowsTheGuessedDistance(void** state)
 {
     Fixture* fixture = *state;
@@ -80,9 +79,10 @@ static void clampedRayLeavesAlongTheSurfaceWithAllLight(void** state)
 {
     Fixture* fixture = *state;
     const float sine = 0.7660444f, cosine = 0.6427876f;
-    const Sheet sheets[2] = {
-        {.corner = {-2, -2, 0}, .across = {4, 0, 0}, .up = {0, 4, 0}},
-        {.corner = {1, -0.9f * cosine, -1 - 0.9f * sine}, .across = {-2, 0, 0}, .up = {0, 1.8f * cosine, 1.8f * sine}}};
+    const Sheet sheets[2] = {{.corner = {-2, -2, 0}, .across = {4, 0, 0}, .up = {0, 4, 0}},
+                             {.corner = {1, -0.9f * cosine, -1 - 0.9f * sine},
+                              .across = {-2, 0, 0},
+                              .up = {0, 1.8f * cosine, 1.8f * sine}}};
     setSheets(fixture->renderer, sheets, 2);
     // Light comes from 20 to 60 degrees below the horizon alone: the ray along the surface goes down by 40
     // degrees, the one that is reflected inside by 80, and what the front reflects by none.
@@ -102,12 +102,14 @@ static void clampedRayLeavesAlongTheSurfaceWithAllLight(void** state)
         for (int p = 0; p < 4 * near * near; ++p) {
             const int column = middle - near + p % (2 * near), row = middle - near + p / (2 * near);
             bool clamped;
-            const vtVec3 wanted = throughBoth(&frame, column, row, sheetNormal(&sheets[0]), sheetNormal(&sheets[1]), &clamped);
+            const vtVec3 wanted =
+                throughBoth(&frame, column, row, sheetNormal(&sheets[0]), sheetNormal(&sheets[1]), &clamped);
             assert_true(clamped);
             assert_true(degreesOff(fixture, column, row, wanted) < 0.1f);
             // The front lets through 0.96 of the light that comes straight on.
             const float share = frame.fresnel ? 0.96f : 1.0f;
-            assert_near((float)fixture->pixels[4 * (row * side + column)], 255.0f * vtLinearToSrgb(share), 1.6f);
+            assert_near((float)fixture->pixels[4 * (row * side + column)], 255.0f * vtLinearToSrgb(share),
+                        1.6f);
         }
     }
 }
@@ -116,8 +118,8 @@ static void clampedRayLeavesAlongTheSurfaceWithAllLight(void** state)
 static void normalFacesTheSideBeyondTheSilhouette(void** state)
 {
     Fixture* fixture = *state;
-    // A front that bends rays to the right, past a narrow back side: T1 meets N2 at more than the critical angle,
-    // and the clamped ray goes along L.
+    // A front that bends rays to the right, past a narrow back side: T1 meets N2 at more than the critical
+    // angle, and the clamped ray goes along L.
     const vtVec3 leaning = {-0.6f, 0.0f, 0.8f};
     Sheet sheets[2] = {{.corner = {-4, -4, 0}, .across = {8, 0, 0}, .up = {0, 8, 0}, .normal = leaning},
                        {.corner = {0.1f, -1, -2}, .across = {-0.6f, 0, 0}, .up = {0, 2, 0}}};
@@ -134,7 +136,8 @@ static void normalFacesTheSideBeyondTheSilhouette(void** state)
     draw(fixture, &frame);
     for (int column = side - 8; column < side; ++column) {
         bool clamped;
-        const vtVec3 T1 = bendClamped(eyeRay(&frame, column, middle), sheets[0].normal, 1.0f / frame.ior, &clamped);
+        const vtVec3 T1 =
+            bendClamped(eyeRay(&frame, column, middle), sheets[0].normal, 1.0f / frame.ior, &clamped);
         const vtVec3 N2 = vtNormalize(vtMulAdd(T1, -vtDot(lookAt, T1), lookAt));
         const vtVec3 wanted = bendClamped(T1, vtScale(N2, -1.0f), frame.ior, &clamped);
         assert_false(clamped);
@@ -150,7 +153,8 @@ static void backSideIsTheSecondOrTheFarthestSurface(void** state)
     Sheet sheets[4];
     for (int i = 0; i < 4; ++i) {
         const float across = i % 2 == 0 ? 2.0f : -2.0f; // faces the eye, or away from it
-        sheets[i] = (Sheet){.corner = {-across, -2.0f, -0.5f * (float)i}, .across = {2.0f * across, 0, 0}, .up = {0, 4, 0}};
+        sheets[i] = (Sheet){
+            .corner = {-across, -2.0f, -0.5f * (float)i}, .across = {2.0f * across, 0, 0}, .up = {0, 4, 0}};
         sheets[i].normal = i % 2 == 1 ? normals[i / 2] : (vtVec3){0, 0, 0};
     }
     setSheets(fixture->renderer, sheets, 4);
@@ -160,7 +164,8 @@ static void backSideIsTheSecondOrTheFarthestSurface(void** state)
         draw(fixture, &frame);
         for (int column = middle - near; column < middle + near; ++column) {
             bool clamped;
-            const vtVec3 wanted = throughBoth(&frame, column, middle, sheetNormal(&sheets[0]), sheetNormal(&sheets[2 * i + 1]), &clamped);
+            const vtVec3 wanted = throughBoth(&frame, column, middle, sheetNormal(&sheets[0]),
+                                              sheetNormal(&sheets[2 * i + 1]), &clamped);
             assert_false(clamped);
             assert_true(degreesOff(fixture, column, middle, wanted) < 0.1f);
         }
