@@ -818,12 +818,6 @@ describe('measuring', () => {
     assert.match(table, /The source's method had 0\.93/);
     assert.match(vitrine(['rays', 'knot']).error, /^vitrine: rays: 'knot' is no relief;[^\n]+\n$/);
   });
-
-  test('the thesis needs a folder', () => {
-    const thesis = spawnSync(process.execPath, [join(here, '../scripts/thesis.mjs')]);
-    assert.equal(thesis.status, 1);
-    assert.match(thesis.stderr.toString(), /^thesis: [^\n]*add -o FOLDER\n$/);
-  });
 });
 
 describe('window', () => {

@@ -1,10 +1,11 @@
 // This work is based on:
 //   Manuel M. Oliveira, Maicon Brauwers. Real-Time Refraction Through Deformable Objects. I3D 2007, as
 //   Wang & Chi 2014 (section 3.3) restate it.
-// The refracted ray is searched in the back side's depth, linearly and then by halving, between S and E
-// where it meets Zmin and Zmax. Nothing is done about jumps of depth: that is what `layered` adds.
-// Departures: beyond the critical angle the exit is clamped to it, as in `wyman` (the sources at hand do not
-// say what the paper does); a ray that leaves the silhouette without a hit takes the last point within.
+// The refracted ray is searched in the back side's depth, linearly and then by halving, to E where it meets
+// Zmax or, turned towards the eye, Zmin. Nothing is done about jumps of depth: that is what `layered` adds.
+// Departures: the search starts at P1, not at S where the ray's line meets Zmin, which lies before the object; beyond
+// the critical angle the exit is clamped to it, as in `wyman` (the sources at hand do not say what the paper does); a
+// ray that leaves the silhouette without a hit takes the last point within.
 void main()
 {
     Layers layers = layersOfAll();
