@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
 # Do the unit tests see faults? Puts each fault of tests/mutants.txt, one at a time, into a copy of the tree
-# (build/mutants), builds that, and tells which test fails. Exit code 0: each fault is caught.
+# (build/mutants), builds that, and runs the unit test that the list names for it, which must fail. Without a fault it
+# must pass. Exit code 0: each fault is caught, 1: some are not, 2: the list is wrong.
 #   scripts/mutants.sh            every fault of the list
 #   scripts/mutants.sh NAME...    these
 #   scripts/mutants.sh --list     their names, and what each breaks
-# The test that the list names is built and run first; all unit tests are, where it does not fail. A test counts
-# only if it passes without a fault. A fault that does not compile, or whose text is not found exactly once, is an error.
 set -eu
 cd "$(dirname "$0")/.."
 list=tests/mutants.txt
@@ -14,7 +13,7 @@ build=$copy/build/release
 log=$copy/log.txt
 
 declare -a names=()
-declare -A breaks file test old new passed
+declare -A breaks file test old new sound
 name=
 while IFS= read -r line; do
   value=${line#*: }
@@ -54,7 +53,7 @@ check() { # a fault has all its parts, and its text stands once in its file
 }
 
 case ${1:-} in
-  --help | -h) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  --help | -h) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
   --list)
     for name in "${names[@]}"; do
       printf '%-28s %s\n' "$name" "${breaks[$name]}"
@@ -79,74 +78,40 @@ mapfile -t sources < <(find CMakeLists.txt CMakePresets.json LICENSE cmake docs/
   tests/CMakeLists.txt tests/cases tests/directions tests/lsan.supp tests/unit -type f)
 for source in "${sources[@]}"; do
   if ! cmp -s "$source" "$copy/$source"; then
-    mkdir -p "$copy/${source%/*}"
-    cp "$source" "$copy/$source"
+    cp --parents "$source" "$copy"
   fi
 done
 (cd "$copy" && find native scripts shaders_es3 src tests -type f) | sort |
   comm -13 <(printf '%s\n' "${sources[@]}" | sort) - | sed "s|^|$copy/|" | xargs -r -d '\n' rm --
 (cd "$copy" && cmake --preset release -DBUILD_TESTING=ON -DVT_DATA=none) >"$log"
 
-# Builds what is named, or everything; then runs the tests of that name, or all unit tests until one fails.
-builds() {
-  cmake --build "$build" -j "$(nproc)" ${1:+--target "$1"} >"$log" 2>&1
-}
-passes() {
-  ctest --test-dir "$build" -j "$(nproc)" --stop-on-failure --output-on-failure --timeout 900 \
-    -L unit ${1:+-R "^$1\$"} --no-tests=error >"$log" 2>&1
-}
-
-# Without a fault.
-mustPass() {
-  [ -z "${passed[${1:-all}]+set}" ] || return 0
-  if ! builds "$1" || ! passes "$1"; then
-    tail -n 20 "$log"
-    echo "mutants.sh: ${1:-a unit test} fails without any fault; see $log" >&2
-    exit 2
-  fi
-  passed[${1:-all}]=yes
-}
-
-put() { # a text into a file of the copy: file, old text, new text
-  local content
-  content=$(<"$copy/$1")
-  printf '%s\n' "${content/"$2"/"$3"}" >"$copy/$1"
-}
-
-# Its test, and the case in it, from the log.
-failure() {
-  local program case
-  program=$(sed -n 's/^.* Test *#[0-9]*: \([a-z_]*\) .*\(Failed\|Timeout\|Exception\|Subprocess\).*$/\1/p' "$log" | head -n 1)
-  case=$(sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_]*\)$/\1/p' "$log" | head -n 1)
-  echo "${program:-?}${case:+, $case}"
+run() { # a test: 0: it passes, 1: it fails, 2: it does not compile, or a shader does not
+  cmake --build "$build" -j "$(nproc)" --target "$1" >"$log" 2>&1 || return 2
+  ctest --test-dir "$build" -R "^$1\$" --output-on-failure --timeout 900 --no-tests=error >"$log" 2>&1 && return 0
+  ! grep -q 'GL: .* does not \(compile\|link\)' "$log" || return 2
+  return 1
 }
 
 try() { # a fault: prints its line; false where it is not caught
-  mustPass "${test[$1]}"
-  put "${file[$1]}" "${old[$1]}" "${new[$1]}"
-  local result=0
-  if ! builds "${test[$1]}"; then
-    result=2
-  elif passes "${test[$1]}"; then
-    # Somewhere else, perhaps.
-    cp "${file[$1]}" "$copy/${file[$1]}"
-    mustPass ""
-    put "${file[$1]}" "${old[$1]}" "${new[$1]}"
-    builds "" || result=2
-    [ $result -ne 0 ] || ! passes "" || result=1
+  local source=${file[$1]} by=${test[$1]} content result case
+  if [ -z "${sound[$by]+set}" ]; then
+    if ! run "$by"; then
+      tail -n 20 "$log"
+      echo "mutants.sh: $by fails without a fault; see $log" >&2
+      exit 2
+    fi
+    sound[$by]=yes
   fi
-  cp "${file[$1]}" "$copy/${file[$1]}"
-  if [ $result -eq 2 ] || grep -q "GL: .* does not \(compile\|link\)" "$log"; then
-    tail -n 20 "$log"
-    echo "mutants.sh: '$1' does not compile; correct it in $list" >&2
-    exit 2
-  fi
-  if [ $result -eq 1 ]; then
-    printf '%-28s NOT CAUGHT (%s)\n' "$1" "${breaks[$1]}"
-  else
-    printf '%-28s caught by %s\n' "$1" "$(failure)"
-  fi
-  return $result
+  content=$(<"$source")
+  printf '%s\n' "${content/"${old[$1]}"/"${new[$1]}"}" >"$copy/$source"
+  run "$by" && result=0 || result=$?
+  cp "$source" "$copy/$source"
+  case=$(sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_]*\)$/\1/p' "$log" | head -n 1)
+  case $result in
+    0) printf '%-28s NOT CAUGHT by %s\n' "$1" "$by"; return 1 ;;
+    1) printf '%-28s caught by %s%s\n' "$1" "$by" "${case:+, $case}" ;;
+    2) printf '%-28s DOES NOT COMPILE: %s\n' "$1" "$(grep -m 1 'error' "$log")"; return 1 ;;
+  esac
 }
 
 missed=0

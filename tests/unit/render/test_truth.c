@@ -15,16 +15,18 @@ enum { side = 512 };
 
 typedef struct Case {
     const char* model;
-    double layered;    // share of pixels that must be within 1 degree
-    double exact;      // the same
-    double shortPaths; // the same of exact, of paths of at most four events
+    double twoLayers;  // share of pixels that must be within 1 degree of `layered`, two layers
+    double fourLayers; // the same of four
+    double exact;      // the same of `exact`
+    double shortPaths; // the same of `exact`, of paths of at most four events
     bool convex;       // two layers hold all of it
 } Case;
 
+// Less than a point below what is measured; README.md shows those figures.
 static const Case cases[] = {
-    {"sphere_512f", 0.98, 0.999, 0.999, true}, {"torus_576f", 0.72, 0.99, 0.993, false},
-    {"knot_2400f", 0.72, 0.99, 0.993, false},  {"spot_5856", 0.68, 0.988, 0.996, false},
-    {"cow_5804", 0.68, 0.97, 0.988, false},    {"bunny_69666", 0.62, 0.944, 0.993, false},
+    {"sphere_512f", 0.992, 0.992, 0.999, 0.999, true}, {"torus_576f", 0.433, 0.749, 0.990, 0.993, false},
+    {"knot_2400f", 0.645, 0.774, 0.990, 0.993, false}, {"spot_5856", 0.702, 0.840, 0.988, 0.996, false},
+    {"cow_5804", 0.812, 0.823, 0.970, 0.988, false},   {"bunny_69666", 0.713, 0.726, 0.944, 0.993, false},
 };
 
 typedef struct Fixture {
@@ -184,7 +186,8 @@ static void directionsAgreeWithCycles(void** state)
         vtDirectionError two = measure(fixture, vt_techniqueLayered, 2, truth);
         vtDirectionError four = measure(fixture, vt_techniqueLayered, 4, truth);
         vtDirectionError exact = measure(fixture, vt_techniqueExact, 0, truth);
-        assert_true(four.within1 >= cases[i].layered);
+        assert_true(two.within1 >= cases[i].twoLayers);
+        assert_true(four.within1 >= cases[i].fourLayers);
         assert_true(exact.within1 >= cases[i].exact);
         assert_true(exact.lost <= 0.01);
         checkShortPaths(fixture, &scene, truth, cases[i].shortPaths);
