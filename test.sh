@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and passes every test. Exit code 0: all passed.
 #   ./test.sh         about a quarter of an hour
-#   ./test.sh --all   also what is long: nothing left out under sanitizers, ten minutes of hostile glTF files, the
-#                     browser's picture against its rivals'
+#   ./test.sh --all   also what is long: nothing left out under sanitizers, deliberate faults that tests must see, ten
+#                     minutes of hostile glTF files, the browser's picture against its rivals'
 set -eu
 cd "$(dirname "$0")"
 
@@ -37,6 +37,8 @@ echo "== tests, release"
 ctest --preset release
 
 if $all; then
+  echo "== deliberate faults"
+  bash scripts/mutants.sh
   if command -v clang >/dev/null; then
     echo "== hostile glTF files, ten minutes"
     cmake -S . -B build/fuzz -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DVT_SANITIZE=ON -DVT_FUZZ=ON \
