@@ -3,7 +3,6 @@
 
 #include "base/math.h"
 #include "image/image.h"
-#include "lab/metrics/metrics.h"
 #include "rendering.h"
 #include "scene/camera.h"
 
@@ -177,6 +176,29 @@ static void plateAbsorbsTheLightOfWhatIsInIt(void** state)
     }
 }
 
+// From within a plate: a tint, and absorption over what lies ahead.
+static void plateAbsorbsTheLightThatAnEyeInItSees(void** state)
+{
+    Fixture* fixture = *state;
+    Part parts[2] = {{"cube", {3, 3, 3}, {0, 0, 0}, glassOf(1.5f)},
+                     {"sphere", {1, 1, 1}, {0, 0, 8}, glassOf(1.3f)}};
+    parts[0].material.tint = (vtVec3){0.9f, 0.8f, 0.7f};
+    parts[0].material.attenuationColor = (vtVec3){0.2f, 0.6f, 0.4f};
+    parts[0].material.attenuationDistance = 2.0f;
+    setLight(fixture->renderer, 1.0f);
+    const float ahead = 3.0f * cubeHalf - 0.2f;
+    const vtVec3 left =
+        times(parts[0].material.tint, power(parts[0].material.attenuationColor, ahead / 2.0f));
+    for (int count = 1; count <= 2; ++count) {
+        setParts(fixture->renderer, parts, count);
+        vtFrame frame = frontal(vt_techniqueExact);
+        frame.view.eye = (vtVec3){0, 0, -0.2f};
+        frame.view.target = (vtVec3){0, 0, -1};
+        draw(fixture, &frame);
+        assertLight(fixture, left);
+    }
+}
+
 // Clear glass neither takes nor gives: in a grey room it is as grey, whatever is reflected and refracted.
 static void clearGlassInGreyStaysGrey(void** state)
 {
@@ -256,20 +278,23 @@ static void touchingPlatesAreCrossedAtOnce(void** state)
     }
 }
 
-// A ball takes two events: with one allowed every path is lost.
+// Two balls take four events: where fewer are allowed every path is lost after them.
 static void eventsRunOut(void** state)
 {
     Fixture* fixture = *state;
-    const Part ball = {"sphere", {1, 1, 1}, {0, 0, 0}, glassOf(1.5f)};
-    setParts(fixture->renderer, &ball, 1);
+    const Part balls[2] = {{"sphere", {1, 1, 1}, {0, 0, 0}, glassOf(1.5f)},
+                           {"sphere", {1, 1, 1}, {0, 0, -3}, glassOf(1.3f)}};
+    static uint32_t states[little * little];
+    vtError error;
+    setParts(fixture->renderer, balls, 2);
     for (int way = 0; way < wayCount; ++way) {
-        for (int most = 1; most <= 2; ++most) {
+        for (uint32_t most = 1; most <= 4; ++most) {
             vtFrame frame = withWay(frontal(vt_techniqueExact), way);
-            frame.maxEvents = most;
+            frame.maxEvents = (int)most;
             draw(fixture, &frame);
+            assert_ok(vtRenderer_ReadStates(fixture->renderer, states, &error), error);
             for (int p = 0; p < little * little; ++p) {
-                const vtDirectionKind kind = vtClassifyDirection(fixture->directions + 3 * p);
-                assert_int_equal(kind, most == 1 ? vt_directionLost : vt_directionExit);
+                assert_int_equal(states[p], (most < 4 ? VT_PATH_LOST : VT_PATH_EXITED) + 256 * most);
             }
         }
     }
@@ -376,6 +401,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plateTintsTwiceAndAbsorbsOnce),
         cmocka_unit_test(plateAbsorbsTheLightOfWhatIsInIt),
+        cmocka_unit_test(plateAbsorbsTheLightThatAnEyeInItSees),
         cmocka_unit_test(clearGlassInGreyStaysGrey),
         cmocka_unit_test(pictureEnvironmentsAreThoseOfTheCpu),
         cmocka_unit_test(touchingPlatesAreCrossedAtOnce),
