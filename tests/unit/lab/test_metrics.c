@@ -436,7 +436,8 @@ static void directions(void** state)
     assert_near(result.within1, 0.5, 1e-9);
     assert_near(result.within5, 0.7, 1e-9);
     assert_near(result.lost, 0.1, 1e-9);
-    assert_near(result.median, 1.1, 1e-4); // the upper one of the two in the middle
+    assert_near(result.median, 1.1, 1e-4);                       // the upper one of the two in the middle
+    assert_near(result.mean, (12.25 + 2.0 * 90.0) / 10.0, 1e-4); // two without an answer
     assert_int_equal(result.maskErrors, 2);
 
     assert_ok(vtCompareDirections(paths.directions, paths.truth, 0, &result, &error), error);
