@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Do the unit tests see faults? Puts each fault of tests/mutants.txt, one at a time, into a copy of the tree
-# (build/mutants), builds that, and runs the unit test that the list names for it, which must fail. Without a fault it
+# (build/mutants), builds that, and runs the unit test that the list names for it, which must fail; without a fault it
 # must pass. Exit code 0: each fault is caught, 1: some are not, 2: the list is wrong.
 #   scripts/mutants.sh            every fault of the list
 #   scripts/mutants.sh NAME...    these
@@ -93,7 +93,7 @@ run() { # a test: 0: it passes, 1: it fails, 2: it does not compile, or a shader
 }
 
 try() { # a fault: prints its line; false where it is not caught
-  local source=${file[$1]} by=${test[$1]} content result case
+  local source=$copy/${file[$1]} by=${test[$1]} content result case
   if [ -z "${sound[$by]+set}" ]; then
     if ! run "$by"; then
       tail -n 20 "$log"
@@ -103,9 +103,9 @@ try() { # a fault: prints its line; false where it is not caught
     sound[$by]=yes
   fi
   content=$(<"$source")
-  printf '%s\n' "${content/"${old[$1]}"/"${new[$1]}"}" >"$copy/$source"
+  printf '%s\n' "${content/"${old[$1]}"/"${new[$1]}"}" >"$source"
   run "$by" && result=0 || result=$?
-  cp "$source" "$copy/$source"
+  printf '%s\n' "$content" >"$source"
   case=$(sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_]*\)$/\1/p' "$log" | head -n 1)
   case $result in
     0) printf '%-28s NOT CAUGHT by %s\n' "$1" "$by"; return 1 ;;
