@@ -1,5 +1,8 @@
 # Turns the files of shaders_es3/ into C arrays, so that the library carries its shaders.
-# Run as: cmake -DSOURCES="a.frag;b.glsl" -DOUTPUT_C=... -DOUTPUT_H=... [-DSHORT=ON] -P EmbedShaders.cmake
+# Run as: cmake -DSOURCES="a.frag;b.glsl" -DOUTPUT_C=... -DOUTPUT_H=... [-DSHORT=ON] [-DLATER="..." -DOUTPUT_LATER=...] -P EmbedShaders.cmake
+# OUTPUT_LATER, where given: a file that a page loads once a frame needs one of LATER, names of files whose text is there
+# and not in the C. In it, each ended by a form feed: the mark by which the core knows the file as its own, then name and
+# text of each.
 # peel.frag becomes vtChunk_peel_frag, frame.glsl becomes vtChunk_frame, constants.h vtChunk_constants.
 
 # SHORT: the names that the shaders give get two letters, the same in all of them, and lines are joined, which
@@ -56,6 +59,9 @@ function(shorten variable)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
+set(later "")
+set(all_texts "")
+string(ASCII 12 end)
 set(declarations "// Made from shaders_es3/ by cmake/EmbedShaders.cmake; do not edit.\n#pragma once\n\n#include \"gl/program.h\"\n\n")
 set(definitions "// Made from shaders_es3/ by cmake/EmbedShaders.cmake; do not edit.\n#include \"shaders.h\"\n\n")
 foreach(source IN LISTS SOURCES)
@@ -76,12 +82,29 @@ foreach(source IN LISTS SOURCES)
   if(SHORT)
     shorten(text)
   endif()
+  string(APPEND all_texts "${text}")
+  string(APPEND declarations "extern const vtChunk vtChunk_${symbol};\n")
+  list(FIND LATER "${file}" place)
+  if(place GREATER -1)
+    string(APPEND later "${file}${end}${text}${end}")
+    string(APPEND definitions "const vtChunk vtChunk_${symbol} = {\"${file}\", NULL};\n")
+    list(REMOVE_AT LATER ${place})
+    continue()
+  endif()
   file(WRITE ${OUTPUT_C}.part "${text}")
   file(READ ${OUTPUT_C}.part hex HEX)
   file(REMOVE ${OUTPUT_C}.part)
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
-  string(APPEND declarations "extern const vtChunk vtChunk_${symbol};\n")
   string(APPEND definitions "static const char ${symbol}[] = {${bytes}0x00};\nconst vtChunk vtChunk_${symbol} = {\"${file}\", ${symbol}};\n")
 endforeach()
+if(LATER)
+  message(FATAL_ERROR "EmbedShaders.cmake: LATER names what SOURCES lacks: ${LATER}; correct the names")
+endif()
+string(MD5 mark "${all_texts}")
+string(SUBSTRING ${mark} 0 8 mark)
+string(APPEND declarations "#define VT_LATER_MARK \"${mark}\"\n")
+if(OUTPUT_LATER)
+  file(WRITE ${OUTPUT_LATER} "${mark}${end}${later}")
+endif()
 file(WRITE ${OUTPUT_H} "${declarations}")
 file(WRITE ${OUTPUT_C} "${definitions}")

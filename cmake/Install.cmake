@@ -4,14 +4,29 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Vitrine)
-install(TARGETS ${vitrine_library} EXPORT VitrineConfig
+install(TARGETS ${vitrine_library} EXPORT VitrineTargets
   LIBRARY COMPONENT vitrine_runtime NAMELINK_COMPONENT vitrine_development
   ARCHIVE COMPONENT vitrine_development
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vitrine COMPONENT vitrine_development)
 
-# find_package(Vitrine). It depends on nothing, so what CMake exports is the whole configuration.
-install(EXPORT VitrineConfig NAMESPACE Vitrine:: DESTINATION ${package_dir} COMPONENT vitrine_development)
+# find_package(Vitrine). Beside a static library the program must link those that read pictures.
+install(EXPORT VitrineTargets NAMESPACE Vitrine:: DESTINATION ${package_dir} COMPONENT vitrine_development)
+set(find_libraries "")
+if(NOT VT_SHARED)
+  set(find_libraries "include(CMakeFindDependencyMacro)
+find_dependency(PNG)
+find_dependency(JPEG)
+find_dependency(OpenEXR 3.1)
+find_dependency(PkgConfig)
+if(NOT TARGET PkgConfig::WEBP)
+  pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
+endif()
+")
+endif()
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/VitrineConfig.cmake @ONLY CONTENT
+  "@find_libraries@include(\${CMAKE_CURRENT_LIST_DIR}/VitrineTargets.cmake)\n")
+install(FILES ${PROJECT_BINARY_DIR}/VitrineConfig.cmake DESTINATION ${package_dir} COMPONENT vitrine_development)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/VitrineConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/VitrineConfigVersion.cmake DESTINATION ${package_dir} COMPONENT vitrine_development)
 
@@ -20,7 +35,9 @@ install(FILES ${PROJECT_BINARY_DIR}/VitrineConfigVersion.cmake DESTINATION ${pac
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
   OUTPUT_VARIABLE to_prefix)
 set(linked -lvitrine)
+set(required "")
 if(NOT VT_SHARED)
+  set(required "Requires: libpng libjpeg libwebp OpenEXR >= 3.1")
   foreach(name IN LISTS cxx_libraries)
     string(APPEND linked " -l${name}")
   endforeach()

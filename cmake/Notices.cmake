@@ -1,9 +1,12 @@
 # NOTICES.txt: the licences of others' code that is compiled in, from the copyright files of Debian's packages.
 set(VT_COPYRIGHTS /usr/share/doc CACHE PATH "Folder with PACKAGE/copyright of what is compiled in")
 
-set(packages libtinygltf-dev libstb-dev nlohmann-json3-dev)
+set(packages libtinygltf-dev nlohmann-json3-dev)
 if(EMSCRIPTEN)
   list(APPEND packages emscripten)
+endif()
+if(draco IN_LIST decoder_libraries) # the code in its headers
+  list(APPEND packages libdraco-dev)
 endif()
 list(JOIN packages ", " names)
 set(text "Vitrine holds compiled code of others: ${names}.

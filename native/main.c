@@ -3,6 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/setting_options.h"
+#include "gltf/features.h"
 
 static void printUsage(void)
 {
@@ -15,8 +16,10 @@ static void printUsage(void)
         "  vitrine rays RELIEF [options]               its heights traced beside Embree's triangles\n"
         "  vitrine compare A B [options]               measure a picture or directions against the truth\n"
         "  vitrine view MODEL [options]                turn the object in a window\n"
+        "  vitrine inspect FILE [--json]               what is in a glTF file, and what of it is drawn\n"
         "  vitrine list                                techniques, shapes, reliefs, environments\n"
         "  vitrine list --settings                     the settings of a frame, as JSON\n"
+        "  vitrine list --gltf                         what of glTF is drawn, as a Markdown table\n"
         "  vitrine COMMAND --help                      the options of each\n"
         "  vitrine --version\n"
         "\n"
@@ -49,6 +52,17 @@ static void printList(void)
     }
 }
 
+static void printGltf(void)
+{
+    printf("| glTF | here | |\n|---|---|---|\n");
+    const vtGltfFeature* feature;
+    for (int i = 0; (feature = vtGltfFeature_At(i)) != NULL; ++i) {
+        const char* quote = feature->isExtension ? "`" : "";
+        printf("| %s%s%s | %s | %s |\n", quote, feature->name, quote, vtGltfSupport_Name(feature->support),
+               feature->how);
+    }
+}
+
 static int report(vtResult result, const vtError* error)
 {
     if (result == vt_ok) {
@@ -67,7 +81,7 @@ static const struct {
 } commands[] = {
     {"render", vt_commandRender, vtRunRender}, {"view", vt_commandView, vtRunView},
     {"ladder", vt_commandLadder, vtRunLadder}, {"bench", vt_commandBench, vtRunBench},
-    {"rays", vt_commandRays, vtRunRays},
+    {"rays", vt_commandRays, vtRunRays},       {"inspect", vt_commandInspect, vtRunInspect},
 };
 
 static int runCommand(int index, int count, char** words)
@@ -76,6 +90,11 @@ static int runCommand(int index, int count, char** words)
     vtError error = {0};
     vtResult result = vtParseOptions(commands[index].command, count, words, &options, &error);
     if (result == vt_ok && options.help) {
+        if (commands[index].command == vt_commandInspect) {
+            printf("vitrine inspect FILE [options]; FILE is a .glb or .gltf file, - is standard input\n\n");
+            vtPrintOptions(commands[index].command);
+            return 0;
+        }
         printf("vitrine %s MODEL [options]; MODEL is a .glb or .gltf file, a picture of heights or a "
                "built-in shape or relief, or left out where --object names what is drawn\n\n",
                words[0]);
@@ -98,7 +117,12 @@ static int runList(int count, char** words)
         vtPrintSettings();
         return 0;
     }
-    fprintf(stderr, "vitrine: list takes --settings or nothing; '%s' is neither\n", words[count - 1]);
+    if (count == 1 && strcmp(words[0], "--gltf") == 0) {
+        printGltf();
+        return 0;
+    }
+    fprintf(stderr, "vitrine: list takes --settings, --gltf or nothing; '%s' is none of them\n",
+            words[count - 1]);
     return 1;
 }
 

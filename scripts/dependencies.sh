@@ -7,9 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
 # Without these nothing is built.
 needed=(build-essential cmake ninja-build pkg-config libgles-dev libegl-dev libgl1-mesa-dri libtinygltf-dev
-  nlohmann-json3-dev libstb-dev libcmocka-dev)
+  nlohmann-json3-dev libpng-dev libjpeg-dev libwebp-dev libopenexr-dev libcmocka-dev)
 # Without one of these a part is left out: its name, and what it is for.
 optional=(libosmesa6-dev libglfw3-dev libembree-dev emscripten python3 xvfb xauth chromium clang-format)
+optional+=(libdraco-dev libmeshoptimizer-dev) # packed geometry in glTF files
 
 installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q '^install ok installed$'; }
 

@@ -16,6 +16,11 @@ const events = [
     detail: "{ type: 'loadfailure' | 'webglcontextlost' | 'unsupported' | 'invalid'; sourceError: Error }",
     description: 'Something failed; the last good picture stays.',
   },
+  {
+    name: 'warning',
+    detail: '{ sentences: string[] }',
+    description: 'Something of the model’s files is left out or changed, as ignored extensions; the property `warnings` keeps it.',
+  },
   { name: 'frame', detail: '{ milliseconds: number }', description: 'A frame is on the screen, and how long it took.' },
   { name: 'camera-change', detail: "{ source: 'user-interaction' | 'none' }", description: 'The view has changed.' },
   {
@@ -78,13 +83,17 @@ ${listeners.join('\n')}
 
 /** A mesh in glass. */
 export declare class VitrineViewer extends HTMLElement {
-  /** Where vitrine-core.wasm is served from, if not beside vitrine-core.js. Set before the first element. */
+  /** Where vitrine-core.wasm and vitrine-shaders.txt are served from, if not beside vitrine-core.js. Set before the first element. */
   static locateFile: ((name: string) => string) | null;
   /** The WebAssembly itself, where nothing is to be fetched. Set before the first element. */
   static wasmBinary: ArrayBuffer | Uint8Array | null;
+  /** What vitrine-shaders.txt has in it, where that is not to be fetched either. Set before the first element. */
+  static laterShaders: string | null;
 ${attributes.map((row) => `  /** ${row.description} Default: ${defaultOf(row) || 'empty'}. */\n  ${row.property}: ${typeOf(row)};`).join('\n')}
   /** True while a model is shown. */
   readonly loaded: boolean;
+  /** What of the model's files is left out or changed, sentences. */
+  readonly warnings: string[];
 ${methods.map(({ signature, description }) => `  /** ${description} */\n  ${signature};`).join('\n')}
   addEventListener<K extends keyof VitrineViewerEventMap>(type: K, listener: (event: VitrineViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;
   addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Do the unit tests see faults? Puts each fault of tests/mutants.txt, one at a time, into a copy of the tree
-# (build/mutants), builds that, and runs the unit test that the list names for it, which must fail; without a fault it
+# Do the tests see faults? Puts each fault of tests/mutants.txt, one at a time, into a copy of the tree (build/mutants),
+# builds that, and runs the test that the list names for it, a unit test or `cases`, which must fail. Without a fault it
 # must pass. Exit code 0: each fault is caught, 1: some are not, 2: the list is wrong.
 #   scripts/mutants.sh            every fault of the list
 #   scripts/mutants.sh NAME...    these
@@ -75,7 +75,7 @@ done
 # What differs is copied and gets a new time, so that the build sees what a stopped run has left there.
 mkdir -p "$copy"
 mapfile -t sources < <(find CMakeLists.txt CMakePresets.json LICENSE cmake docs/embed.c native scripts shaders_es3 src \
-  tests/CMakeLists.txt tests/cases tests/directions tests/lsan.supp tests/unit -type f)
+  tests/CMakeLists.txt tests/*.mjs tests/cases tests/directions tests/lsan.supp tests/unit -type f)
 for source in "${sources[@]}"; do
   if ! cmp -s "$source" "$copy/$source"; then
     cp --parents "$source" "$copy"
@@ -83,10 +83,13 @@ for source in "${sources[@]}"; do
 done
 (cd "$copy" && find native scripts shaders_es3 src tests -type f) | sort |
   comm -13 <(printf '%s\n' "${sources[@]}" | sort) - | sed "s|^|$copy/|" | xargs -r -d '\n' rm --
+ln -sfn "$PWD/tests/node_modules" "$copy/tests/node_modules"
 (cd "$copy" && cmake --preset release -DBUILD_TESTING=ON -DVT_DATA=none) >"$log"
 
 run() { # a test: 0: it passes, 1: it fails, 2: it does not compile, or a shader does not
-  cmake --build "$build" -j "$(nproc)" --target "$1" >"$log" 2>&1 || return 2
+  local target=$1
+  [ "$1" != cases ] || target=vitrine
+  cmake --build "$build" -j "$(nproc)" --target "$target" >"$log" 2>&1 || return 2
   ctest --test-dir "$build" -R "^$1\$" --output-on-failure --timeout 900 --no-tests=error >"$log" 2>&1 && return 0
   ! grep -q 'GL: .* does not \(compile\|link\)' "$log" || return 2
   return 1

@@ -15,7 +15,7 @@ const version = readFileSync(join(root, 'src/vitrine.h'), 'utf8').match(/VT_VERS
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
-cpSync(join(web, 'vitrine-core.wasm'), join(folder, 'vitrine-core.wasm'));
+for (const name of ['vitrine-core.wasm', 'vitrine-shaders.txt']) cpSync(join(web, name), join(folder, name));
 const small = { format: 'esm', minify: true, target: 'es2022', logLevel: 'warning' };
 await build({ ...small, entryPoints: [join(web, 'vitrine-core.js')], outdir: folder });
 const { attributes, types, manifest } = await describeElement(join(web, 'element/attributes.js'));
@@ -36,7 +36,7 @@ await build({
   ...small,
   entryPoints: [join(web, 'element/vitrine-viewer.js')],
   bundle: true,
-  external: ['../vitrine-core.js'],
+  external: ['../vitrine-core.js', './exr.js'],
   plugins: [withoutDescriptions],
   outdir: join(folder, 'element'),
 });
@@ -45,19 +45,28 @@ writeFileSync(join(folder, 'index.d.ts'), types);
 writeFileSync(join(folder, 'custom-elements.json'), `${JSON.stringify(manifest, null, 2)}\n`);
 cpSync(join(root, 'docs/web.md'), join(folder, 'README.md'));
 cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
-cpSync(join(web, 'NOTICES.txt'), join(folder, 'NOTICES.txt'));
+cpSync(join(web, 'element/exr.js'), join(folder, 'element/exr.js'));
+const licences = ['parse-exr/LICENSE.md', 'fflate/LICENSE'].map((name) => `\nnpm: ${dirname(name)}\n\n${readFileSync(join(root, 'tests/node_modules', name), 'utf8')}`);
+writeFileSync(join(folder, 'NOTICES.txt'), readFileSync(join(web, 'NOTICES.txt'), 'utf8') + licences.join(''));
 
-// One file with everything in it, for a <script type="module"> from anywhere.
+const openExrBeside = {
+  name: 'exr.js beside',
+  setup: ({ onResolve }) => onResolve({ filter: /\/exr\.js$/ }, () => ({ path: './element/exr.js', external: true })),
+};
+
+// One file with everything in it, vitrine-shaders.txt too, but OpenEXR, for a <script type="module"> from anywhere.
 await build({
   stdin: {
     contents: `import wasm from './vitrine-core.wasm';
       import { VitrineViewer } from './element/vitrine-viewer.js';
-      VitrineViewer.wasmBinary = wasm;
+      import laterShaders from './vitrine-shaders.txt';
+      Object.assign(VitrineViewer, { wasmBinary: wasm, laterShaders });
       export { VitrineViewer };`,
     resolveDir: folder,
   },
   ...small,
   bundle: true,
+  plugins: [openExrBeside],
   loader: { '.wasm': 'binary' },
   outfile: join(folder, 'vitrine-viewer.bundle.js'),
 });
@@ -77,10 +86,11 @@ writeFileSync(
         '.': { types: './index.d.ts', default: './element/vitrine-viewer.js' },
         './bundle': { types: './index.d.ts', default: './vitrine-viewer.bundle.js' },
         './vitrine-core.wasm': './vitrine-core.wasm',
+        './vitrine-shaders.txt': './vitrine-shaders.txt',
         './custom-elements.json': './custom-elements.json',
       },
       sideEffects: ['./element/vitrine-viewer.js', './vitrine-viewer.bundle.js'],
-      files: ['element', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-viewer.bundle.js', 'index.d.ts', 'custom-elements.json', 'NOTICES.txt'],
+      files: ['element', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', 'index.d.ts', 'custom-elements.json', 'NOTICES.txt'],
       customElements: 'custom-elements.json',
       keywords: ['glass', 'refraction', 'webgl', 'wasm', 'gltf', 'custom-element', 'web-components'],
     },
@@ -94,10 +104,11 @@ console.log(`build/${packed.toString().trim()}`);
 
 // What the element loads, as a server would send it.
 const loaded = ['vitrine-core.wasm', 'vitrine-core.js', 'element/vitrine-viewer.js'];
-let sum = 0;
-for (const name of loaded) {
+const weigh = (name, when = '') => {
   const bytes = gzipSync(readFileSync(join(folder, name)), { level: 9 }).length;
-  sum += bytes;
-  console.log(`  ${name}: ${statSync(join(folder, name)).size} bytes, ${bytes} gzip`);
-}
+  console.log(`  ${name}: ${statSync(join(folder, name)).size} bytes, ${bytes} gzip${when}`);
+  return bytes;
+};
+const sum = loaded.reduce((bytes, name) => bytes + weigh(name), 0);
 console.log(`  all that the element loads: ${(sum / 1000).toFixed(1)} KB gzip`);
+weigh('vitrine-shaders.txt', ', loaded once a picture needs it');

@@ -118,6 +118,11 @@ typedef struct vtMeshDef {
     /// Bytes from a vertex's numbers to the next one's, a multiple of 4 and at least those numbers' own; 0:
     /// their own, so that they lie side by side.
     uint32_t positionStride, normalStride, texcoordStride, colorStride;
+    const float* texcoords1; ///< a second set, 2 * vertexCount, side by side; NULL: none
+    const float* alphas;     ///< of the colours, vertexCount, 0 to 1, side by side; NULL: 1
+    /// For normal maps: 4 * vertexCount, side by side: unit, along rising u, and 1 or -1, which times normal
+    /// x tangent is up in the picture, where v falls. NULL: vtComputeTangents
+    const float* tangents;
 } vtMeshDef;
 
 /// A validated triangle mesh. Read it freely; change it only through the functions below.
@@ -128,7 +133,8 @@ typedef struct vtMesh {
     uint32_t vertexCount;
     uint32_t indexCount;
     vtVec3 boundsMin, boundsMax;
-    double volume; ///< that the surface encloses; of an open one, that its triangles would with a point
+    double volume; ///< that the surface encloses, negative where its triangles face inwards; of an open one,
+                   ///< that its triangles would with a point
     bool normalsComputed;   ///< the input had no normals (or some of zero length)
     uint32_t openEdgeCount; ///< edges, over welded positions, without an opposite twin; 0: closed
     /// For technique `wyman`: distance from each vertex inwards along its normal to the next surface,
@@ -137,6 +143,9 @@ typedef struct vtMesh {
     uint32_t degenerateCount; ///< triangles of no area, kept in the count above but never visible
     float* texcoords;         ///< 2 * vertexCount, or NULL
     float* colors;            ///< 3 * vertexCount, linear, or NULL
+    float* alphas;            ///< vertexCount, or NULL
+    float* texcoords1;        ///< 2 * vertexCount, or NULL
+    float* tangents;          ///< 4 * vertexCount, or NULL
     struct vtHeightField*
         heights; ///< of a relief, which has no triangles before vtTriangulateRelief; or NULL
     struct vtHierarchy* hierarchy; ///< over the triangles (vtBeginPreparation), or NULL
@@ -152,6 +161,10 @@ VT_API vtResult vtCreateMesh(const vtMeshDef* def, const char* name, vtMesh* mes
 /// Fills mesh->innerDistances (Wyman 2005's d_N) by tracing a ray from each vertex; 0 where it meets nothing.
 /// Does nothing where they are there already. About a second for 100,000 triangles.
 VT_API vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error);
+
+/// Fills mesh->tangents from texture coordinates of that set, 0 or 1, as normal maps are made for (Mikkelsen
+/// 2008). Does nothing where they are there already, or the mesh lacks these coordinates.
+VT_API vtResult vtComputeTangents(vtMesh* mesh, int texcoords, vtError* error);
 
 /// One of the built-in shapes: sphere torus knot goblet bottle diamond cube plane tumbler water; all but the
 /// plane are closed and outward. Tumbler and water fit one in the other. Fails with vt_errorArgument for
@@ -221,20 +234,76 @@ VT_API vtResult vtTriangulateRelief(vtMesh* mesh, vtError* error);
 
 // ----------------------------------------------------------------------------------------------- scene
 
-/// What an object is made of. Colours are linear, 0 to 1 unless said otherwise.
+/// How a picture goes on beyond its sides.
+typedef enum vtWrap { vt_wrapRepeat = 0, vt_wrapClamp, vt_wrapMirror } vtWrap;
+
+/// A picture laid over a surface by its texture coordinates.
+typedef struct vtMap {
+    int image;           ///< in the scene; -1: none
+    int texcoords;       ///< which of the mesh's sets, 0 or 1
+    vtWrap wrapX, wrapY; ///< default vt_wrapRepeat
+    bool nearest;        ///< its pixels stay squares when seen large; else they are blended
+    float rows[2][3];    ///< affine: the place in the picture = rows * (u, v, 1). Default: u, v
+} vtMap;
+
+/// No picture, and the other defaults.
+VT_API vtMap vtDefaultMap(void);
+
+/// What a map says. Colours are sRGB, all else are numbers as they are.
+typedef enum vtMapUse {
+    vt_mapBaseColor = 0,        ///< times tint or baseColor; its alpha times alpha
+    vt_mapMetallicRoughness,    ///< green times roughness, blue times metallic
+    vt_mapTransmission,         ///< red times transmission
+    vt_mapNormal,               ///< 2 rgb - 1 along tangent, bitangent and normal
+    vt_mapOcclusion,            ///< red: share of the environment that matt and glossy surfaces see
+    vt_mapEmissive,             ///< colour, times emissive
+    vt_mapSpecular,             ///< alpha times specular
+    vt_mapSpecularColor,        ///< colour, times specularColor
+    vt_mapIridescence,          ///< red times iridescence
+    vt_mapIridescenceThickness, ///< green: the film's thickness
+    vt_mapCount,
+} vtMapUse;
+
+/// Whether a surface is there.
+typedef enum vtAlpha {
+    vt_alphaOpaque = 0, ///< everywhere
+    vt_alphaMask,       ///< where its alpha is alphaCutoff or more
+    vt_alphaBlend,      ///< a share of alpha
+} vtAlpha;
+
+/// What an object is made of, as glTF 2.0 and its extensions KHR_materials_... mean it. Colours are linear,
+/// 0 to 1 unless said otherwise. Techniques other than `exact` and `heightfield` look at opaque, ior, tint
+/// and attenuation of glass, and of opaque things at baseColor, metallic, roughness, emissive, checker and
+/// the first two of the maps.
 typedef struct vtMaterial {
     bool opaque; ///< else glass
-    float ior;   ///< glass: index of refraction, 0.25 to 4; below that around it is a bubble. Default 1.5
+    /// Glass: a wall without thickness. Light goes straight on; there is nothing inside. Default false: a
+    /// body
+    bool thin;
+    bool unlit;  ///< opaque: shows its base colour as it is
+    float ior;   ///< index of refraction, 0.25 to 4, or 0: reflects everything. Glass that has less than what
+                 ///< is around it is a bubble. Default 1.5
     vtVec3 tint; ///< glass: share of the light that passes a surface (base colour of glTF). Default 1, 1, 1
+    float transmission; ///< glass: 0 to 1, share that passes; the rest is matt, coloured by tint. Default 1
     /// Glass: what is left of white light after attenuationDistance in it (KHR_materials_volume; t = T^d of
     /// Kay & Greenberg 1979, equation 6). World units; 0: nothing is absorbed. Default 1, 1, 1 and 0.
     vtVec3 attenuationColor;
     float attenuationDistance;
-    vtVec3 baseColor;           ///< opaque. Default 0.8, 0.8, 0.8
-    float metallic, roughness;  ///< opaque: 0 to 1. Default 0 and 1
-    vtVec3 emissive;            ///< opaque: light of its own, 0 and above. Default 0
-    int baseColorImage;         ///< in the scene, sRGB, times baseColor; -1, the default: none
-    int metallicRoughnessImage; ///< green times roughness, blue times metallic; -1, the default: none
+    vtVec3 baseColor; ///< opaque. Default 0.8, 0.8, 0.8
+    float metallic;   ///< 0 to 1. Default 0
+    float roughness;  ///< 0 to 1; of glass it is read, kept, and drawn in highlights of lights alone. Default
+                      ///< 1 of opaque things; 0 of glass
+    vtVec3 emissive;  ///< light of its own, 0 and above. Default 0
+    vtAlpha alphaMode;                 ///< default vt_alphaOpaque
+    float alpha, alphaCutoff;          ///< 0 to 1. Default 1 and 0.5
+    float specular;                    ///< 0 to 1: share of what it reflects at its surface. Default 1
+    vtVec3 specularColor;              ///< of that, seen straight on, 0 and above. Default 1, 1, 1
+    float iridescence, iridescenceIor; ///< a film: its share, 0 to 1, and index, 1 and above. Default 0, 1.3
+    float iridescenceMin, iridescenceMax; ///< its thickness where its map is 0 and 1, nanometres. Default
+                                          ///< 100, 400; without a map it is the latter
+    float dispersion; ///< 20 over the Abbe number; read and kept, not drawn yet. Default 0
+    float normalScale, occlusionStrength; ///< of their maps. Default 1
+    vtMap maps[vt_mapCount];              ///< by vtMapUse; default: no picture
     float checker; ///< opaque: squares along a unit of texture coordinates, alternately dark; 0, the default:
                    ///< none
 } vtMaterial;
@@ -261,7 +330,22 @@ typedef struct vtObject {
     /// that of the object of least volume, so that what lies wholly inside another replaces it. Default 0.
     int priority;
     char name[64]; ///< for sentences
+    /// Objects of glass of the same number bound one body together, whose inside is of the first one's
+    /// material. 0, the default: it is a body by itself
+    uint32_t body;
 } vtObject;
+
+typedef enum vtLightKind { vt_lightPoint = 0, vt_lightSpot, vt_lightDirectional } vtLightKind;
+
+/// A light without size (KHR_lights_punctual): it lights opaque things, and is seen in glass as a highlight.
+typedef struct vtLight {
+    vtLightKind kind;
+    vtVec3 position;
+    vtVec3 direction;           ///< that its light goes, unit; of a point's none
+    vtVec3 color;               ///< linear, times its intensity: candela, of a directional one lux
+    float range;                ///< beyond which it gives nothing; 0: without end
+    float innerCone, outerCone; ///< spot: radians from its direction where it begins to fade and has faded
+} vtLight;
 
 /// Objects, and what they are made of. Owns all its memory.
 typedef struct vtScene {
@@ -269,9 +353,11 @@ typedef struct vtScene {
     vtMaterial* materials;
     vtImage* images;
     vtObject* objects;
-    struct vtView* cameras; ///< of the file; targets lie at the scene's centre's depth
-    uint32_t meshCount, materialCount, imageCount, objectCount, cameraCount;
+    struct vtSceneCamera* cameras; ///< of the files
+    vtLight* lights;               ///< 64 of them at most are drawn
+    uint32_t meshCount, materialCount, imageCount, objectCount, cameraCount, lightCount;
     bool allGlass; ///< the file said of none of its materials that it is glass, so all were made glass
+    char* notes;   ///< what of the files is left out or changed, a line each; NULL: nothing
 } vtScene;
 
 VT_API vtMaterial vtDefaultMaterial(void);
@@ -294,9 +380,15 @@ VT_API vtResult vtScene_AddObject(vtScene* scene, const vtObject* object, uint32
 VT_API vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* transform, vtError* error);
 
 /// Fails with vt_errorGeometry and a sentence where the scene cannot be drawn: no object, a scale of zero, a
-/// mesh, material or image that is not there, a mesh without triangles or heights, glass without a volume
-/// (open edges) inside other glass. vtRenderer_SetScene does it, too.
+/// mesh, material or image that is not there, a mesh without triangles or heights, numbers out of their
+/// range. vtRenderer_SetScene does it, too.
 VT_API vtResult vtValidateScene(const vtScene* scene, vtError* error);
+
+typedef enum vtWalls { vt_wallsAuto = 0, vt_wallsThin, vt_wallsSolid } vtWalls;
+/// "auto", "thin", "solid"; NULL past the end.
+VT_API const char* vtWallsName(int index);
+/// Makes all glass of a scene thin walls or solid bodies, for files that say it wrongly; auto: as it is.
+VT_API void vtScene_SetWalls(vtScene* scene, vtWalls walls);
 
 /// The scene's box in world coordinates: of its glass, or of all where it has none; zeros without an object.
 VT_API void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boundsMax);
@@ -304,23 +396,30 @@ VT_API void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boun
 /// Frees what the scene holds and zeroes it. Safe on NULL and on a zeroed scene.
 VT_API void vtDestroyScene(vtScene* scene);
 
-/// Reads a whole file for the scene loader (external buffers of a .gltf). On success returns true with
-/// *bytes from vtAllocate (or NULL of 0 bytes), which the loader frees by vtFree.
-typedef bool vtReadFileFcn(const char* path, uint8_t** bytes, size_t* size, void* userData);
+/// Reads a whole file of at most `limit` bytes for the scene loader (buffers and pictures beside a .gltf). On
+/// success *bytes are from vtAllocate (or NULL of 0 bytes), and the loader frees them by vtFree. On failure
+/// the sentence in *error, if any, becomes a part of the loader's. The path is that of a file in the model's
+/// folder or in vtModelDef.root by its name; where links lead, and that it is a plain file, is for the
+/// function to look at.
+typedef vtResult vtReadFileFcn(const char* path, size_t limit, uint8_t** bytes, size_t* size, void* userData,
+                               vtError* error);
 
 typedef struct vtModelDef {
     const void* bytes; ///< the contents of a .glb or .gltf file
     size_t size;
     const char* name;        ///< for error sentences, usually the path
-    const char* directory;   ///< where external buffers lie; NULL or "": the current one
-    vtReadFileFcn* readFile; ///< NULL: external buffers are an error
+    const char* directory;   ///< of the model; NULL or "": the current one
+    const char* root;        ///< a folder around it, whose files the model may name as well, as ../a.png;
+                             ///< absolute if `directory` is; NULL: none
+    vtReadFileFcn* readFile; ///< NULL: files beside the model are an error
     void* userData;          ///< passed to readFile
+    const char* variant;     ///< of KHR_materials_variants, by its name; NULL: the materials as they are
 } vtModelDef;
 
-/// Loads glTF 2.0 (through tinygltf). Everything that can be wrong with a file gives a sentence. Materials
-/// with KHR_materials_transmission are glass; where the file has none such, all of them are made glass of
-/// their index of refraction. Primitives of one glTF mesh with the same material make one mesh; nodes that
-/// share it are instances. On failure *scene is zeroed.
+/// Loads glTF 2.0 (through tinygltf); docs/gltf.md lists what is drawn. Everything that can be wrong with a
+/// file gives a sentence. Materials with KHR_materials_transmission are glass; where the file has none such,
+/// all of them are made glass of their index of refraction. Primitives of one glTF mesh with the same
+/// material make one mesh; nodes that share it are instances. On failure *scene is zeroed.
 VT_API vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error);
 
 // ----------------------------------------------------------------------------------------- environment
@@ -345,7 +444,10 @@ VT_API vtResult vtCreateEnvironment(const char* name, vtEnvironment* environment
 VT_API const char* vtEnvironmentName(int index);
 VT_API const char* vtEnvironmentSummary(int index);
 
-/// Decodes a .hdr (linear), .png or .jpg (sRGB, converted to linear) held in memory.
+/// Decodes a picture held in memory, told by its contents: Radiance HDR, OpenEXR or PFM (linear), PNG, JPEG
+/// or WebP (sRGB, converted to linear); for the web only the first and PFM. It is equirectangular, or one of
+/// a cube's six faces, of which an equirectangular one is made: a strip of 6:1 or 1:6 in OpenGL's order, or a
+/// cross of 4:3 or 3:4 whose middle is seen along -Z.
 VT_API vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name,
                                   vtEnvironment* environment, vtError* error);
 
@@ -368,6 +470,13 @@ typedef struct vtView {
     float fovY; ///< degrees, 1 to 170
 } vtView;
 
+/// A camera of a file.
+typedef struct vtSceneCamera {
+    vtView view;              ///< its target lies at the scene's centre's depth
+    float orthographicHeight; ///< for vtFrame; 0: it is perspective
+    char name[64];            ///< that of its node, else its own; may be empty
+} vtSceneCamera;
+
 /// A view that shows the whole mesh with some margin, from slightly above and to the right. `fovY` in
 /// degrees, `aspect` is width over height.
 VT_API vtView vtViewOfMesh(const vtMesh* mesh, float fovY, float aspect);
@@ -375,7 +484,10 @@ VT_API vtView vtViewOfMesh(const vtMesh* mesh, float fovY, float aspect);
 /// Turns the eye about the target: `yaw` about +Y, `pitch` upwards, radians; stops short of the poles.
 VT_API vtView vtView_Orbit(vtView view, float yaw, float pitch);
 
-/// The same for the scene's glass, or all of it where there is none.
+/// The same for the scene: its glass and what belongs to it, or all where there is no glass. What is opaque
+/// belongs to it unless it is a backdrop: flat and longer than the glass, six times as long and all around
+/// it, or sixteen times as long, measured by the diagonals of the boxes. So a lamp is seen whole, and a
+/// goblet on a wide floor, or in a room, alone.
 VT_API vtView vtViewOfScene(const vtScene* scene, float fovY, float aspect);
 
 /// Moves the eye towards (factor < 1) or away from (factor > 1) the target.
@@ -476,6 +588,9 @@ typedef void vtStageFcn(const char* stage, void* userData);
 /// Everything that decides one picture.
 typedef struct vtFrame {
     vtView view;
+    /// World units from the picture's lower to its upper edge: rays are parallel then, whatever view.fovY is.
+    /// 0 to 2,000,000,000, for techniques that peel no layers. 0, the default: perspective
+    float orthographicHeight;
     vtTechnique technique;
     vtOutput output;
     int layer;    ///< for the layer outputs: 0 (nearest) to layers - 1

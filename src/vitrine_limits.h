@@ -6,7 +6,7 @@
 #define VT_MAX_REFINE 32
 #define VT_MAX_EVENTS 64
 #define VT_MAX_BRANCHES 4
-#define VT_MAX_OBJECTS 1000
+#define VT_MAX_OBJECTS 4096
 
 // What became of a path: the lowest byte of its state.
 #define VT_PATH_BACKGROUND 0

@@ -50,7 +50,7 @@ function textured(image) {
     extensionsUsed: ['KHR_materials_transmission'],
     images: [{ bufferView: 3, mimeType: 'image/png' }],
     textures: [{ source: 0 }],
-    materials: [{ extensions: { KHR_materials_transmission: { transmissionFactor: 1 } } }, { pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0 } }],
+    materials: [{ pbrMetallicRoughness: { metallicFactor: 0, roughnessFactor: 0 }, extensions: { KHR_materials_transmission: { transmissionFactor: 1 } } }, { pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0 } }],
     cameras: [{ type: 'perspective', perspective: { yfov: 0.7, znear: 0.1 } }],
     nodes: [{ mesh: 0 }, { mesh: 1, translation: [0, 0, -3] }, { camera: 0, translation: [9, 0, 0], rotation: [0, Math.SQRT1_2, 0, Math.SQRT1_2] }],
     scenes: [{ nodes: [0, 1, 2] }],
@@ -86,6 +86,16 @@ function plain(...color) {
 function panorama() {
   const png = new PNG({ width: 64, height: 32 });
   for (let i = 0; i < 64 * 32; ++i) png.data.set([4 * (i % 64), 8 * (i >> 6), (i * 37) % 256, (i * 5) % 256], 4 * i);
+  return png;
+}
+
+/** Six faces of one colour each. */
+function cross() {
+  const png = new PNG({ width: 64, height: 48 });
+  for (let i = 0; i < 64 * 48; ++i) {
+    const face = [i % 64 >> 4, i >> 10];
+    png.data.set(face.includes(1) ? [80 * face[0], 120 * face[1], 90, 255] : [0, 0, 0, 0], 4 * i);
+  }
   return png;
 }
 
@@ -135,6 +145,9 @@ function startServer(requests, pages, gates) {
       send(pyramid().subarray(0, 100), 'model/gltf-binary');
     } else if (pathname === '/red.glb') {
       send(textured(plain(250, 10, 20, 255)), 'model/gltf-binary');
+    } else if (pathname === '/noted.glb') {
+      const { json, bin } = gltf(cube);
+      send(glb({ json: { ...json, animations: [{}] }, bin }), 'model/gltf-binary');
     } else if (pathname === '/unreadable.glb') {
       send(textured(plain(250, 10, 20, 255).fill(7, 16)), 'model/gltf-binary');
     } else if (pathname === '/slow.glb') {
@@ -147,6 +160,10 @@ function startServer(requests, pages, gates) {
       send(PNG.sync.write(panorama()), 'image/png');
     } else if (pathname === '/panorama.hdr') {
       send(radiance, 'image/vnd.radiance');
+    } else if (pathname === '/panorama.exr') {
+      send(readFileSync(join(here, 'cases/panorama.exr')), 'image/x-exr');
+    } else if (pathname === '/cross.png') {
+      send(PNG.sync.write(cross()), 'image/png');
     } else if (reliefs.has(pathname)) {
       send(reliefs.get(pathname), 'application/octet-stream');
     } else if (pathname === '/poster.png') {
@@ -297,7 +314,10 @@ describe('the element', { skip }, () => {
 
   test('takes pictures as environment, decoded by the browser to the file\'s own numbers', async (t) => {
     const page = await open(t, `<vitrine-viewer id="a" src="sphere" skybox-image></vitrine-viewer>${ofSide}`);
-    for (const [name, bytes] of [['panorama.png', PNG.sync.write(panorama())], ['panorama.hdr', radiance]]) {
+    const exr = readFileSync(join(here, 'cases/panorama.exr'));
+    assert.equal(await page.evaluate(() => performance.getEntriesByName(new URL('/element/exr.js', location)).length), 0, 'loaded for OpenEXR only');
+    await page.evaluate(() => import('/element/exr.js')); // quiet does not wait for import()
+    for (const [name, bytes] of [['panorama.png', PNG.sync.write(panorama())], ['panorama.hdr', radiance], ['panorama.exr', exr], ['cross.png', PNG.sync.write(cross())]]) {
       writeFileSync(join(folder, name), bytes);
       await page.evaluate((url) => (a.environmentImage = url), `/${name}`);
       await quiet(page);
@@ -349,6 +369,52 @@ describe('the element', { skip }, () => {
     const partly = data.filter((value, i) => i % 4 === 3 && value > 0 && value < 255).length;
     assert.ok(partly > 100, 'the edge is partly transparent');
     await page.locator('#a').screenshot({ path: join(screenshots, 'element-samples.png') });
+  });
+
+  test('shaders that plain glass does without are loaded once a picture needs them', async (t) => {
+    const name = '/vitrine-shaders.txt';
+    const count = () => requests.filter((path) => path === name).length;
+    requests.length = 0;
+    const page = await open(t, '<vitrine-viewer id="a" src="knot"></vitrine-viewer><vitrine-viewer id="b" src="sphere"></vitrine-viewer>');
+    assert.equal(count(), 0);
+    const exact = await shot(page);
+    for (const technique of ['layered', 'wyman', 'kay-linear']) {
+      await page.evaluate((id) => (a.technique = b.technique = id), technique);
+      await quiet(page);
+      assert.equal(count(), 1, technique);
+      assert.ok(difference(exact, await shot(page)) > 1, technique);
+    }
+    for (const attributes of ['objects="knot; plane:checker"', 'src="red.glb"', 'relief="ripples"']) {
+      requests.length = 0;
+      await open(t, `<vitrine-viewer id="a" ${attributes}></vitrine-viewer>`);
+      assert.equal(count(), 1, attributes);
+    }
+    requests.length = 0;
+    const hidden = await open(t, '<vitrine-viewer id="a" src="knot"></vitrine-viewer>');
+    const size = await hidden.evaluate(async () => {
+      a.technique = 'layered';
+      await null;
+      return (await a.toBlob()).size;
+    });
+    assert.ok(size > 1000 && count() === 1, 'a picture waits for them');
+  });
+
+  test('shaders that are not there, or of another build, are told and asked for again', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="knot"></vitrine-viewer>', { allowed: /404/ });
+    const exact = await shot(page);
+    const answers = [{ status: 404 }, { status: 200, body: '<!doctype html>' }];
+    const sentences = [/vitrine-shaders.txt cannot be loaded: the server answered 404; serve it beside vitrine-core.wasm/, /vitrine-shaders.txt is not of the same build as vitrine-core.wasm/];
+    await page.route('**/vitrine-shaders.txt', (route) => (answers.length > 0 ? route.fulfill(answers.shift()) : route.continue()));
+    for (const sentence of sentences) {
+      await page.evaluate(() => (a.technique = 'layered'));
+      await page.waitForFunction((source) => window.events.some((event) => event.event === 'error' && new RegExp(source).test(event.sentence)), sentence.source);
+      await page.evaluate(() => (a.technique = 'exact'));
+      await quiet(page);
+      assert.equal(difference(exact, await shot(page)), 0);
+    }
+    await page.evaluate(() => (a.technique = 'layered'));
+    await quiet(page);
+    assert.ok(difference(exact, await shot(page)) > 1);
   });
 
   test('several on a page share one module and do not disturb each other', async (t) => {
@@ -595,9 +661,17 @@ describe('the element', { skip }, () => {
     await quiet(page);
     assert.match(await message(page), /^unreadable\.glb: image 0 is no picture that this browser can decode; white is shown in its place$/);
     assert.equal(reds(await picture(page)), 0);
+    await page.evaluate(() => {
+      globalThis.told = [];
+      a.addEventListener('warning', ({ detail }) => told.push(...detail.sentences));
+      a.src = '/noted.glb';
+    });
+    await page.waitForFunction(() => a.loaded);
+    assert.deepEqual(await page.evaluate(() => [told, a.warnings]), Array(2).fill(["'noted.glb': ignored: 1 animation"]));
     await page.evaluate(() => (a.src = '/red.glb'));
     await page.waitForFunction(() => a.loaded);
     await quiet(page);
+    assert.equal(await page.evaluate(() => a.warnings.length), 0);
     assert.equal(await message(page), '');
     assert.equal(difference(first, await picture(page)), 0);
   });
@@ -648,7 +722,7 @@ describe('the element', { skip }, () => {
     const cases = {
       '/dot.png': /relief 'dot.png' is 1 x 1 samples, but a side must be 2 to 4096/,
       '/wide.png': /relief 'wide.png' is 4097 x 2 samples, but a side must be 2 to 4096/,
-      '/broken.png': /relief 'broken.png' is a PNG or JPEG that the browser could not decode/,
+      '/broken.png': /relief 'broken.png' is a PNG that the browser could not decode/,
       '/words.txt': /relief 'words.txt' is no picture that can be read/,
       '/good.glb': /relief 'good.glb' is no picture that can be read/,
       knot: /knot: neither a built-in name nor a file/,

@@ -17,5 +17,8 @@ vtResult vtRunBench(const vtOptions* options, vtError* error);
 /// `vitrine rays`: a relief traced by its heights, beside triangles made of them.
 vtResult vtRunRays(const vtOptions* options, vtError* error);
 
+/// `vitrine inspect`: what is in a glTF file, and what of it is drawn.
+vtResult vtRunInspect(const vtOptions* options, vtError* error);
+
 /// `vitrine compare`: how far a result is from the truth. words[0] is "compare".
 vtResult vtRunCompare(int count, char** words, vtError* error);

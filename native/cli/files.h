@@ -16,5 +16,16 @@ vtResult vtWriteFile(const char* path, const void* bytes, size_t size, vtError* 
 typedef void vtPrintFcn(const void* data, FILE* out);
 vtResult vtWritePrinted(const char* path, vtPrintFcn* print, const void* data, vtError* error);
 
-/// A vtReadFileFcn for vtModelDef.
-bool vtReadFileForModel(const char* path, uint8_t** bytes, size_t* size, void* userData);
+/// Where the files of a model may lie: resolved, so without links.
+typedef struct vtModelFolders {
+    char directory[4096]; ///< its own
+    char root[4096];      ///< of --root; empty: none
+} vtModelFolders;
+
+/// Of the file `model` ("-": the current folder) and --root, NULL where that is not given.
+vtResult vtFindModelFolders(const char* model, const char* root, vtModelFolders* folders, vtError* error);
+
+/// A vtReadFileFcn for vtModelDef, whose userData is a vtModelFolders: plain files within the folders alone,
+/// wherever links lead.
+vtResult vtReadFileForModel(const char* path, size_t limit, uint8_t** bytes, size_t* size, void* userData,
+                            vtError* error);

@@ -9,11 +9,13 @@
 #include "base/math.h"
 #include "cli/files.h"
 #include "cli/object_help.h"
+#include "cli/object_image.h"
 #include "cli/relief_input.h"
 #include "cli/trace.h"
 #include "image/image.h"
 #include "mesh/height_field.h"
 #include "relief/relief.h"
+#include "scene/objects.h"
 #include "shapes/shapes.h"
 
 static bool isShape(const char* name)
@@ -38,6 +40,13 @@ static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vt
         result = vtLoadEnvironment(bytes, size, name, environment, error);
         vtFree(bytes);
     }
+    if (result == vt_ok && environment->width != 2 * environment->height) {
+        fprintf(
+            stderr,
+            "vitrine: note: environment '%s' is %d x %d pixels, not twice as wide as high; it is stretched "
+            "over the sphere\n",
+            name, environment->width, environment->height);
+    }
     return result;
 }
 
@@ -56,16 +65,40 @@ static vtResult checkKind(const Named* named, vtObjectKind kind, vtError* error)
                                : vtCheckReliefOptions(named->options, kind, error);
 }
 
-static vtResult loadModel(const char* path, const void* bytes, size_t size, vtScene* scene, vtError* error)
+static vtResult findWalls(const char* word, vtWalls* walls, vtError* error)
 {
-    char directory[4096] = "";
-    const char* slash = strrchr(path, '/');
-    if (slash != NULL && (size_t)(slash - path) + 1 < sizeof directory) {
-        memcpy(directory, path, (size_t)(slash - path) + 1);
+    int index = 0;
+    while (word != NULL && vtWallsName(index) != NULL && strcmp(vtWallsName(index), word) != 0) {
+        ++index;
     }
-    const vtModelDef def = {
-        .bytes = bytes, .size = size, .name = path, .directory = directory, .readFile = vtReadFileForModel};
-    return vtLoadScene(&def, scene, error);
+    *walls = (vtWalls)index;
+    return vtWallsName(index) != NULL
+               ? vt_ok
+               : vtFail(error, vt_errorArgument, "--walls is '%.100s'; it must be auto, thin or solid", word);
+}
+
+static vtResult loadModel(const Named* named, const void* bytes, size_t size, vtScene* scene, vtError* error)
+{
+    vtModelFolders folders;
+    vtWalls walls;
+    vtResult result = findWalls(named->options->walls, &walls, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    result = vtFindModelFolders(named->name, named->options->root, &folders, error);
+    const vtModelDef def = {.bytes = bytes,
+                            .size = size,
+                            .name = named->name,
+                            .directory = folders.directory,
+                            .root = folders.root[0] != '\0' ? folders.root : NULL,
+                            .variant = named->options->variant,
+                            .readFile = vtReadFileForModel,
+                            .userData = &folders};
+    result = result == vt_ok ? vtLoadScene(&def, scene, error) : result;
+    if (result == vt_ok) {
+        vtScene_SetWalls(scene, walls);
+    }
+    return result;
 }
 
 /// A model or a picture of heights, by what it begins with: standard input has no name.
@@ -83,7 +116,7 @@ static vtResult loadFile(const Named* named, vtScene* scene, vtError* error)
         const vtReliefDef def = vtMakeReliefDef(named->options, named->spec, -1);
         result = vtLoadReliefFile(named->name, bytes, size, &def, scene, error);
     } else if (result == vt_ok) {
-        result = loadModel(named->name, bytes, size, scene, error);
+        result = loadModel(named, bytes, size, scene, error);
     }
     vtFree(bytes);
     return result;
@@ -137,7 +170,7 @@ static void printMeshNotes(const char* name, const vtScene* scene, uint32_t inde
     if (scene->meshCount > 1) {
         snprintf(which, sizeof which, ", mesh %u,", index);
     }
-    if (mesh->openEdgeCount > 0) {
+    if (mesh->openEdgeCount > 0 && vtScene_UsesSolid(scene, index)) {
         fprintf(
             stderr,
             "vitrine: warning: '%s'%s is not closed (%u open edges); light that enters through a hole never "
@@ -167,11 +200,20 @@ static void printNotes(const char* name, const vtScene* scene, bool verbose)
     }
     for (uint32_t i = 0; i < scene->objectCount; ++i) {
         const vtObject* object = &scene->objects[i];
-        if (scene->materials[object->material].checker > 0.0f && !isGlass(scene, i) &&
-            scene->meshes[object->mesh].texcoords == NULL) {
-            fprintf(stderr, "vitrine: note: '%s' has no texture coordinates, so it shows no checker\n", name);
+        const vtMaterial* material = &scene->materials[object->material];
+        const vtMesh* mesh = &scene->meshes[object->mesh];
+        if ((material->checker > 0.0f || material->maps[vt_mapBaseColor].image >= 0) && !isGlass(scene, i) &&
+            mesh->texcoords == NULL && mesh->heights == NULL) {
+            fprintf(stderr,
+                    "vitrine: note: '%s' has no texture coordinates, so it shows no checker or picture\n",
+                    name);
             break;
         }
+    }
+    for (const char* line = scene->notes; line != NULL && *line != '\0';) {
+        const size_t length = strcspn(line, "\n");
+        fprintf(stderr, "vitrine: note: %.*s\n", (int)length, line);
+        line += length + (line[length] != '\0');
     }
     if (verbose && scene->allGlass) {
         fprintf(stderr,
@@ -222,6 +264,9 @@ static vtResult addObject(const vtOptions* options, const char* text, vtScene* s
     result = loadNamed(&(Named){options, &spec, spec.name}, &added, error);
     if (result == vt_ok) {
         vtObjectSpec_Apply(&spec, &added);
+        result = spec.image[0] != '\0' ? vtAddObjectImage(spec.image, &added, error) : vt_ok;
+    }
+    if (result == vt_ok) {
         printNotes(spec.name, &added, options->verbose);
         const vtTransform place = vtObjectSpec_Place(&spec);
         result = vtScene_Append(scene, &added, &place, error);

@@ -26,6 +26,8 @@ static const struct {
     [vt_keyMetallic] = {"N", "of what is opaque"},
     [vt_keyRoughness] = {"N", "of what is opaque"},
     [vt_keyChecker] = {"N", "squares along a side; makes it opaque (8)"},
+    [vt_keyThin] = {NULL, "glass: a thin wall, through which light goes straight on"},
+    [vt_keyImage] = {"FILE", "a .png or .jpg as its colour; makes it opaque"},
 };
 
 void vtPrintObjectHelp(void)

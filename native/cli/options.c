@@ -28,6 +28,7 @@ typedef struct Option {
 #define LADDER (1u << vt_commandLadder)
 #define BENCH (1u << vt_commandBench)
 #define RAYS (1u << vt_commandRays)
+#define INSPECT (1u << vt_commandInspect)
 #define SCENE (RENDER | VIEW | LADDER | BENCH)
 #define AT(field) offsetof(vtOptions, field)
 // Everything else of it stands in the table of settings.
@@ -38,6 +39,13 @@ typedef struct Option {
 
 static const Option table[] = {
     {"object", 0, kindList, AT(objects), 0, 0, "NAME[:KEYS]", "one more object, see below; up to 64 times",
+     SCENE},
+    {"root", 0, kindText, AT(root), 0, 0, "DIR",
+     "models may name files anywhere in this folder, too, as ../textures/a.png (their own folder only)",
+     SCENE | INSPECT},
+    {"walls", 0, kindText, AT(walls), 0, 0, "auto|thin|solid",
+     "glass of models: as the file says, or all of it thin walls or solid bodies (auto)", SCENE},
+    {"variant", 0, kindText, AT(variant), 0, 0, "NAME", "of the files' variants of their materials (none)",
      SCENE},
     {"output", 'o', kindText, AT(output), 0, 0, "FILE", "the picture, PNG; - is standard output",
      RENDER | LADDER},
@@ -68,13 +76,14 @@ static const Option table[] = {
     SETTING("wall-thickness", SCENE),
     SETTING("back-surface", SCENE),
     {"environment", 'e', kindText, AT(environment), 0, 0, "NAME|FILE",
-     "see 'vitrine list', or a .hdr, .png or .jpg, equirectangular (studio)", SCENE},
+     "see 'vitrine list', or a picture, equirectangular or of six faces (studio)", SCENE},
     SETTING("exposure", SCENE),
     SETTING("camera", SCENE | RAYS),
     SETTING("target", SCENE | RAYS),
     SETTING("fov", SCENE | RAYS),
-    {"camera-index", 0, kindInteger, AT(cameraIndex), 0, 65535, "N",
-     "the files' camera of this number; --camera, --target and --fov go before it (none)", RENDER | VIEW},
+    {"camera-index", 0, kindText, AT(cameraOfFile), 0, 0, "N|NAME",
+     "the files' camera of this number or name; --camera, --target and --fov go before it (none)",
+     RENDER | VIEW},
     {"resolution", 'r', kindSize, AT(frame.width), 0, 0, "W,H", "pixels (512,512)", SCENE},
     {"directions", 0, kindText, AT(directions), 0, 0, "FILE",
      "exit directions as PFM; 0,0,0 background, 2,2,2 lost", RENDER},
@@ -103,7 +112,7 @@ static const Option table[] = {
     {"table", 0, kindText, AT(table), 0, 0, "FILE", "the figures as a Markdown table; - is standard output",
      LADDER | BENCH | RAYS},
     {"json", 0, kindFlag, AT(json), 0, 0, NULL, "one JSON object on standard output instead of the table",
-     BENCH | RAYS},
+     BENCH | RAYS | INSPECT},
     {"sweep", 0, kindText, AT(sweep), 0, 0, "triangles|resolution|relief|objects|depth",
      "measure again and again: knot or torus of 1,000 to 1,000,000 triangles, pictures of 256 to 2048, a "
      "built-in relief of five sizes up to --relief-size (4096), or 1 to 16 copies side by side or one behind "
@@ -119,7 +128,7 @@ static const Option table[] = {
     {"frames", 0, kindInteger, AT(frames), 1, 1000000, "N", "close the window after so many frames", VIEW},
     {"verbose", 'v', kindFlag, AT(verbose), 0, 0, NULL, "say what is done, on what, with how much memory",
      SCENE | RAYS},
-    {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", SCENE | RAYS},
+    {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", SCENE | RAYS | INSPECT},
 };
 #define OPTION_COUNT ((int)(sizeof table / sizeof table[0]))
 
@@ -194,7 +203,6 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         .environment = "studio",
         .technique = command == vt_commandBench ? VT_BENCH_TECHNIQUES : vtTechnique_Info(frame.technique)->id,
         .backend = "auto",
-        .cameraIndex = -1,
         .samples = command == vt_commandView ? 64 : 1,
         .referenceThreshold = 0.05f,
         .relief = -1.0f,

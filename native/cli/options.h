@@ -20,6 +20,8 @@ typedef struct vtOptions {
     const char* output;
     const char* environment;
     const char* technique;
+    const char* root; ///< a folder around the models'
+    const char *walls, *variant;
     const char* backend;
     const char* directions;
     const char* layerSheet;
@@ -30,7 +32,7 @@ typedef struct vtOptions {
     const char* objects[VT_MAX_OBJECT_OPTIONS]; ///< of --object, as given
     int objectCount;
     bool hasCamera, hasTarget, hasFov; ///< of frame.view, given
-    int cameraIndex;                   ///< of the file's cameras; -1: none of them
+    const char* cameraOfFile;          ///< its number or name; NULL: none of them
     int samples;                       ///< a pixel; of the reference, more than a frame can have
     float referenceThreshold;
     float relief, slab, smooth; ///< of MODEL; -1: not given
@@ -52,7 +54,8 @@ typedef enum vtCommand {
     vt_commandView,
     vt_commandLadder,
     vt_commandBench,
-    vt_commandRays
+    vt_commandRays,
+    vt_commandInspect
 } vtCommand;
 
 /// Parses the words after the command. Fails with a sentence on an unknown option, a missing or malformed

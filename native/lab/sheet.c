@@ -6,15 +6,6 @@
 
 #include "base/error.h"
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#endif
-#include <stb/stb_easy_font.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
-
 vtResult vtCreateSheet(int width, int height, uint8_t grey, vtSheet* sheet, vtError* error)
 {
     *sheet = (vtSheet){0};
@@ -60,37 +51,100 @@ void vtSheet_Paste(vtSheet* sheet, int x, int y, const uint8_t* rgba, int width,
     }
 }
 
-static void fillBlack(vtSheet* sheet, int left, int top, int right, int bottom)
+// ------------------------------------------------------------------------------------------------- words
+
+/// A letter, row by row from the top of the capitals; the eighth and ninth row are below the line.
+typedef struct Glyph {
+    char letter;
+    const char* rows;
+} Glyph;
+
+/// What captions are made of.
+static const Glyph glyphs[] = {
+    {'a', "//.##/...#/.###/#..#/.###"},
+    {'b', "#/#/###/#..#/#..#/#..#/###"},
+    {'c', "//.##/#/#/#/.##"},
+    {'d', "...#/...#/.###/#..#/#..#/#..#/.###"},
+    {'e', "//.##/#..#/####/#/.###"},
+    {'f', ".##/#/###/#/#/#/#"},
+    {'g', "//.###/#..#/#..#/#..#/.###/...#/.##"},
+    {'h', "#/#/###/#..#/#..#/#..#/#..#"},
+    {'i', "#//#/#/#/#/#"},
+    {'j', ".#//.#/.#/.#/.#/.#/.#/#"},
+    {'k', "#/#/#..#/#.#/##/#.#/#..#"},
+    {'l', "#/#/#/#/#/#/.#"},
+    {'m', "//##.#/#.#.#/#.#.#/#.#.#/#.#.#"},
+    {'n', "//###/#..#/#..#/#..#/#..#"},
+    {'o', "//.##/#..#/#..#/#..#/.##"},
+    {'p', "//###/#..#/#..#/#..#/###/#/#"},
+    {'q', "//.###/#..#/#..#/#..#/.###/...#/...#"},
+    {'r', "//#.#/##/#/#/#"},
+    {'s', "//.###/#/.##/...#/###"},
+    {'t', "#/#/###/#/#/#/.##"},
+    {'u', "//#..#/#..#/#..#/#..#/.###"},
+    {'v', "//#...#/#...#/.#.#/.#.#/..#"},
+    {'w', "//#...#/#...#/#.#.#/#.#.#/.#.#"},
+    {'x', "//#...#/.#.#/..#/.#.#/#...#"},
+    {'y', "//#..#/#..#/#..#/#..#/.###/...#/.##"},
+    {'z', "//####/...#/.##/#/####"},
+    {'0', ".##/#..#/#..#/#..#/#..#/#..#/.##"},
+    {'1', ".#/##/.#/.#/.#/.#/.#"},
+    {'2', ".##/#..#/...#/..#/.#/#/####"},
+    {'3', "###/...#/...#/.##/...#/...#/###"},
+    {'4', "..#/.##/#.#/#.#/####/..#/..#"},
+    {'5', "####/#/#/###/...#/...#/###"},
+    {'6', ".##/#/#/###/#..#/#..#/.##"},
+    {'7', "####/...#/..#/..#/.#/.#/.#"},
+    {'8', ".##/#..#/#..#/.##/#..#/#..#/.##"},
+    {'9', ".##/#..#/#..#/.###/...#/...#/.##"},
+    {'E', "####/#/#/###/#/#/####"},
+    {'F', "####/#/#/###/#/#/#"},
+    {'I', "###/.#/.#/.#/.#/.#/###"},
+    {'L', "#/#/#/#/#/#/####"},
+    {'P', "###/#..#/#..#/###/#/#/#"},
+    {'.', "//////#"},
+    {',', "/////.#/.#/#"},
+    {'(', ".#/#/#/#/#/#/.#"},
+    {')', "#/.#/.#/.#/.#/.#/#"},
+    {'-', "////###"},
+    {'%', "##..#/##..#/...#/..#/.#/#..##/#..##"},
+};
+
+static void fillBlack(vtSheet* sheet, int left, int top, int side)
 {
-    for (int y = top < 0 ? 0 : top; y < bottom && y < sheet->height; ++y) {
-        for (int x = left < 0 ? 0 : left; x < right && x < sheet->width; ++x) {
+    for (int y = top < 0 ? 0 : top; y < top + side && y < sheet->height; ++y) {
+        for (int x = left < 0 ? 0 : left; x < left + side && x < sheet->width; ++x) {
             memset(sheet->pixels + 4 * ((size_t)y * (size_t)sheet->width + (size_t)x), 0, 3);
         }
     }
 }
 
+/// Gives the width.
+static int drawGlyph(vtSheet* sheet, int x, int y, int scale, const char* rows)
+{
+    int row = 0, column = 0, width = 0;
+    for (; *rows != '\0'; ++rows) {
+        if (*rows == '/') {
+            ++row;
+            column = 0;
+            continue;
+        }
+        if (*rows == '#') {
+            fillBlack(sheet, x + column * scale, y + row * scale, scale);
+        }
+        width = ++column > width ? column : width;
+    }
+    return width * scale;
+}
+
 void vtSheet_Text(vtSheet* sheet, int x, int y, int scale, const char* text)
 {
-    // stb_easy_font gives quads of four vertices: three floats and a colour each, in units of a font pixel.
-    typedef struct Vertex {
-        float x, y, z;
-        unsigned char color[4];
-    } Vertex;
-    enum { bytesPerCharacter = 270 }; // the library's own estimate, doubled below for safety
-    char copy[256];
-    strncpy(copy, text, sizeof copy - 1);
-    copy[sizeof copy - 1] = '\0';
-    static const size_t capacity = 2 * bytesPerCharacter * sizeof copy;
-    Vertex* vertices = malloc(capacity);
-    if (vertices == NULL) {
-        return; // a caption is not worth failing for
+    for (; *text != '\0'; ++text) {
+        const char* rows =
+            *text == ' ' ? ".." : "####/#..#/#..#/#..#/#..#/#..#/####"; // a box: not in the table
+        for (size_t i = 0; i < sizeof glyphs / sizeof glyphs[0]; ++i) {
+            rows = glyphs[i].letter == *text ? glyphs[i].rows : rows;
+        }
+        x += drawGlyph(sheet, x, y, scale, rows) + scale;
     }
-    int quads = stb_easy_font_print(0.0f, 0.0f, copy, NULL, vertices, (int)capacity);
-    for (int i = 0; i < quads; ++i) {
-        const Vertex* a = &vertices[4 * i];
-        const Vertex* c = a + 2;
-        fillBlack(sheet, x + (int)a->x * scale, y + (int)a->y * scale, x + (int)c->x * scale,
-                  y + (int)c->y * scale);
-    }
-    free(vertices);
 }

@@ -15,6 +15,6 @@ void vtDestroySheet(vtSheet* sheet);
 /// Copies a picture (RGBA, top row first) to (x, y), scaled down by a whole factor (box filter). It must fit.
 void vtSheet_Paste(vtSheet* sheet, int x, int y, const uint8_t* rgba, int width, int height, int factor);
 
-/// Writes one line of ASCII, black, with its top left at (x, y); what does not fit is cut off. Letters are
-/// 7 * scale pixels high, lines 12 * scale apart.
+/// Writes one line, black, with its top left at (x, y); what does not fit is cut off. Letters are
+/// 7 * scale pixels high, lines 12 * scale apart. A letter that no caption had yet is a box: see sheet.c.
 void vtSheet_Text(vtSheet* sheet, int x, int y, int scale, const char* text);

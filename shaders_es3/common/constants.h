@@ -31,13 +31,40 @@
 #define VT_OBJECT_HIGH 6        // its box, world; layered: number of its layers
 #define VT_OBJECT_GLASS 7       // index of refraction, absorption a unit of length (red, green, blue)
 #define VT_OBJECT_COLOR 8       // tint or base colour; number of its first attribute record, or VT_NO_TRIANGLE
-#define VT_OBJECT_SURFACE 9     // metallic, roughness, checker squares a unit of texture coordinates, 0
-#define VT_OBJECT_EMISSIVE 10   // light of its own; 0
-#define VT_OBJECT_IMAGES 11     // base colour and metallic-roughness image, or VT_NO_TRIANGLE; 0; 0
+#define VT_OBJECT_SURFACE 9     // metallic, roughness, checker squares a unit of texture coordinates; number of the first
+                                // object of its body
+#define VT_OBJECT_EMISSIVE 10   // light of its own; number of its material in the table of materials
+#define VT_OBJECT_IMAGES 11     // layers of its base colour and metallic-roughness image, or VT_NO_TRIANGLE; number of
+                                // its first record of more attributes, or that; 0
 #define VT_OBJECT_FRUSTUM 12    // layered: tangents of its layers' frustum, left, bottom, right, top
 #define VT_OBJECT_DEPTHS 13     // layered: of that frustum: near, far, 1 / (far - near); 0
 #define VT_OBJECT_OWN_LOW 14    // box of its mesh, own coordinates; 1 where it is searched by its heights
 #define VT_OBJECT_OWN_HIGH 15   // the same; side of a cell of those heights
 
 // Attribute records: a texel a corner of a record that is a leaf, as many records a row: texture coordinates (bits of
-// floats), colour (three halves).
+// floats), colour and alpha (four halves). Records of more attributes lie among them: the second texture coordinates,
+// tangent (octahedral), 1 where pictures are mirrored on it.
+
+// The table of materials (src/gl/material_table.h), for scenes whose materials are not plain: RGBA32UI texels, so many
+// to a row. The first row: number of lights, number of rows before the first material; then the lights, three each.
+// Then materials, VT_MATERIAL_TEXELS each. Numbers are the bits of floats.
+#define VT_MATERIAL_COLUMNS 512
+#define VT_MATERIAL_TEXELS 32
+#define VT_MOST_LIGHTS 64
+#define VT_MATERIAL_FLAGS 0     // bits: below; alpha, its cutoff (0 without mask), transmission
+#define VT_MATERIAL_COLOR 1     // tint or base colour; metallic
+#define VT_MATERIAL_EMISSIVE 2  // light of its own; roughness
+#define VT_MATERIAL_SPECULAR 3  // specular colour; specular
+#define VT_MATERIAL_FILM 4      // iridescence, its index, least and greatest thickness in nanometres
+#define VT_MATERIAL_SCALES 5    // of the normal map, of occlusion; checker squares; 0
+#define VT_MATERIAL_MAPS 8      // two each, by vtMapUse: layer and flags, or VT_NO_TRIANGLE, offset, size of the picture in
+                                // pixels, 16 bits each; two rows of the matrix
+#define VT_LOOK_THIN 1u
+#define VT_LOOK_UNLIT 2u
+#define VT_LOOK_MIRROR 4u       // index 0: reflects everything
+#define VT_LOOK_BLEND 8u        // alpha is a share
+// Flags of a map, above its layer's 16 bits: the second texture coordinates; squares; how x and y go on (vtWrap).
+#define VT_MAP_SECOND 0x10000u
+#define VT_MAP_NEAREST 0x20000u
+#define VT_MAP_WRAP_X 18
+#define VT_MAP_WRAP_Y 20

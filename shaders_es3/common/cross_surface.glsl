@@ -39,16 +39,26 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
     Media next = toggle(media, id);
     next = also >= 0 ? toggle(next, uint(also + 1)) : next;
     float eta = before.x / glassOf(topOf(next)).x;
-    if (eta == 1.0) {
+    if (eta == 1.0) { // a surface between two media tints whether it bends or not
+        p.transmittance *= topOf(media) != topOf(next) ? readTint(hit.object) : vec3(1.0);
         media = next;
         return false;
     }
     vec3 N = leaving ? -hit.normal : hit.normal, G = leaving ? -hit.flatNormal : hit.flatNormal;
     vec3 I = p.direction;
     bool reflected;
-    p.direction = meetInterface(I, N, G, eta, reflected);
+    vec3 T = meetInterface(I, N, G, eta, reflected);
+    p.direction = T;
     p.reflected = p.reflected || reflected;
     ++p.events;
+#ifdef WITH_FOOTPRINT
+    p.footprint.place = alongSurface(p.footprint.place, I, G);
+    float side = N == G ? 0.0 : leaving ? -1.0 : 1.0;
+    mat2x3 turn = side * (hit.turn * p.footprint.place);
+    mat2x3 steps = p.footprint.direction;
+    mat2x3 passed = bendFootprint(steps, I, N, turn, eta, reflected);
+    p.footprint.direction = passed;
+#endif
     if (reflected) {
         return true;
     }
@@ -60,22 +70,29 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
         R = dot(R, G) > 0.0 ? R : reflect(I, G);
         // What the first surface reflects towards the eye is kept apart: it is never too little to be followed. (Of
         // techniques with a shade pass, shade.frag sees to it.) Later the path follows the stronger part.
-        bool isFirst = p.events == 1 && !leaving;
+        bool isFirst = p.events == 1 && !leaving, isMirrored = !isFirst && F > 0.5;
 #ifdef KEEPS_FIRST
         p.firstPosition = isFirst ? p.position : p.firstPosition;
         p.firstDirection = isFirst ? R : p.firstDirection;
-        p.firstShare = isFirst ? F * strongest(p.transmittance) : p.firstShare;
+        p.firstShare = isFirst ? FIRST_SHARE(F * strongest(p.transmittance)) : p.firstShare;
 #endif
-        if (!isFirst && F > 0.5) {
-            setAside(p, p.direction, 1.0 - F, next);
-            p.transmittance *= F;
-            p.direction = R;
+        bool isKept = false;
+        if (!isFirst) {
+            isKept = setAside(p, isMirrored ? T : R, isMirrored ? 1.0 - F : F, isMirrored ? next : media);
+        }
+#ifdef WITH_FOOTPRINT
+        mat2x3 mirrored = bendFootprint(steps, I, N, turn, eta, true);
+        p.asideFootprint.place = isKept ? p.footprint.place : p.asideFootprint.place;
+        p.asideFootprint.direction = isKept ? (isMirrored ? passed : mirrored) : p.asideFootprint.direction;
+        p.firstFootprint.place = isFirst ? p.footprint.place : p.firstFootprint.place;
+        p.firstFootprint.direction = isFirst ? mirrored : p.firstFootprint.direction;
+        p.footprint.direction = isMirrored ? mirrored : passed;
+#endif
+        p.direction = isMirrored ? R : T;
+        p.transmittance *= isMirrored ? F : 1.0 - F;
+        if (isMirrored) {
             return true;
         }
-        if (!isFirst) {
-            setAside(p, R, F, media);
-        }
-        p.transmittance *= 1.0 - F;
     }
 #endif
     p.transmittance *= tint;

@@ -6,6 +6,9 @@ struct SurfaceHit {
     vec3 normal;   // outward, interpolated
     vec3 flatNormal;
     int object;
+#ifdef WITH_FOOTPRINT
+    mat3 turn; // what a step along the surface does to the normal
+#endif
 };
 
 uvec4 objectBits(int object, int part)
@@ -40,5 +43,27 @@ vec3 normalToWorld(Transform t, vec3 n)
 {
     return normalize(n.x * t.x.xyz + n.y * t.y.xyz + n.z * t.z.xyz);
 }
+
+// The number plus one that an object of glass has among the media of a path.
+uint mediumOf(int object)
+{
+#ifdef WITH_LOOKS // several may bound one body
+    return uint(objectNumbers(object, VT_OBJECT_SURFACE).w) + 1u;
+#else
+    return uint(object + 1);
+#endif
+}
+#ifdef WITH_FOOTPRINT
+// The same of a normal's change over the object's own coordinates: that of the unit normal over the world's.
+mat3 turnToWorld(Transform t, vec3 n, mat3 change)
+{
+    mat3 toOwn = transpose(mat3(t.x.xyz, t.y.xyz, t.z.xyz));
+    vec3 N = n * toOwn;
+    float scale = inversesqrt(dot(N, N));
+    N *= scale;
+    mat3 turn = scale * (transpose(toOwn) * change * toOwn);
+    return turn - outerProduct(N, N * turn);
+}
+#endif
 
 const float NOWHERE = 1e30; // farther than anything

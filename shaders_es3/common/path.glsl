@@ -1,33 +1,60 @@
 // A technique's path: where it goes, and what light is lost and put aside on the way. Needs media. STRICT: there is no
 // Fresnel reflection, so nothing is put aside.
 
+#ifdef WITH_LOOKS
+#define FIRST_SHARE vec3 // surfaces have colours
+#else
+#define FIRST_SHARE float
+#endif
+
 struct Path {
     vec3 position, direction;
     vec3 transmittance;
     int events;
     bool reflected; // total internal reflection took part
+#ifdef WITH_FOOTPRINT
+    Footprint footprint;
+#endif
 #ifndef STRICT
     // Light that was reflected off the path, or passed where the path was reflected: all of its share, as if it went
     // the way of one part of it.
     vec3 aside, asidePosition, asideDirection;
     Media asideMedia;
     float choice; // 0 to 1: decides which part; below 0: the strongest
+#ifdef WITH_FOOTPRINT
+    Footprint asideFootprint;
+#endif
 #endif
 #ifdef KEEPS_FIRST
     // What the first surface reflects towards the eye; share 0: nothing.
     vec3 firstPosition, firstDirection;
-    float firstShare;
+    FIRST_SHARE firstShare;
+#ifdef WITH_FOOTPRINT
+    Footprint firstFootprint;
+#endif
+#endif
+#ifdef WITH_LOOKS
+    vec3 light; // that surfaces have sent along it
 #endif
 };
 
+#ifdef WITH_FOOTPRINT
+#define AND_FOOTPRINT , footprint
+Path startPath(vec3 position, vec3 direction, Footprint footprint)
+#else
+#define AND_FOOTPRINT
 Path startPath(vec3 position, vec3 direction)
+#endif
 {
-    return Path(position, direction, vec3(1.0), 0, false
+    return Path(position, direction, vec3(1.0), 0, false AND_FOOTPRINT
 #ifndef STRICT
-                , vec3(0.0), position, direction, AIR, u_eye.w
+                , vec3(0.0), position, direction, AIR, u_eye.w AND_FOOTPRINT
 #endif
 #ifdef KEEPS_FIRST
-                , position, direction, 0.0
+                , position, direction, FIRST_SHARE(0.0) AND_FOOTPRINT
+#endif
+#ifdef WITH_LOOKS
+                , vec3(0.0)
 #endif
                 );
 }
@@ -38,12 +65,11 @@ float strongest(vec3 light)
 }
 
 #ifndef STRICT
-// Light that leaves the path in a direction, `share` of what is on it; it is then in `media`. Of several parts one is
-// kept, with a chance as its share is (Chao 1982, weighted sampling in one pass), by a number that is the same for all
-// pixels of a sample: pictures of several samples come to the mean of all parts, without noise.
-void setAside(inout Path p, vec3 direction, float share, Media media)
+// Light that leaves the path in a direction; it is then in `media`. Of several parts one is kept, with a chance as its
+// share is (Chao 1982, weighted sampling in one pass), by a number that is the same for all pixels of a sample: pictures
+// of several samples come to the mean of all parts, without noise. True where it is this one.
+bool setLightAside(inout Path p, vec3 direction, vec3 light, Media media)
 {
-    vec3 light = share * p.transmittance;
     float before = strongest(p.aside), part = strongest(light);
     float chance = part / max(before + part, 1e-9);
     bool isKept = p.choice < 0.0 ? part > before : p.choice < chance;
@@ -52,6 +78,13 @@ void setAside(inout Path p, vec3 direction, float share, Media media)
     p.asideDirection = isKept ? direction : p.asideDirection;
     p.asideMedia = isKept ? media : p.asideMedia;
     p.aside += light;
+    return isKept;
+}
+
+// The same of a share of what is on the path.
+bool setAside(inout Path p, vec3 direction, float share, Media media)
+{
+    return setLightAside(p, direction, share * p.transmittance, media);
 }
 #endif
 

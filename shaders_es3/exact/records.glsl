@@ -200,10 +200,25 @@ vec3 cornersNormal(Corners corners, vec2 at)
     return (1.0 - at.x - at.y) * unpackNormal(corners.a.w) + at.x * unpackNormal(corners.b.w) + at.y * unpackNormal(corners.c.w);
 }
 
+#ifdef WITH_FOOTPRINT
+// What a step along the triangle, in the world, does to the normal there: du and dv of the step, times what they do.
+mat3 cornersTurn(Transform transform, Corners corners, vec2 at)
+{
+    vec3 A = uintBitsToFloat(corners.a.xyz), e1 = uintBitsToFloat(corners.b.xyz) - A, e2 = uintBitsToFloat(corners.c.xyz) - A;
+    vec3 area = cross(e1, e2), n = unpackNormal(corners.a.w);
+    mat3 change = outerProduct(unpackNormal(corners.b.w) - n, cross(e2, area)) + outerProduct(unpackNormal(corners.c.w) - n, cross(area, e1));
+    return turnToWorld(transform, cornersNormal(corners, at), change / dot(area, area));
+}
+#endif
+
 // The surface of an object where a ray has met it at this world position.
 SurfaceHit recordSurface(int object, Transform transform, RecordHit hit, vec3 position)
 {
     Corners corners = recordCorners(hit.triangle);
     return SurfaceHit(position, normalToWorld(transform, cornersNormal(corners, hit.at)),
-                      normalToWorld(transform, cornersArea(corners)), object);
+                      normalToWorld(transform, cornersArea(corners)), object
+#ifdef WITH_FOOTPRINT
+                      , cornersTurn(transform, corners, hit.at)
+#endif
+                      );
 }

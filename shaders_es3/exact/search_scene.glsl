@@ -54,14 +54,14 @@ void readObject()
 
 Meeting meetObject(Start start, int object, float farthest)
 {
-    bool inside = holds(start.media, uint(object + 1));
+    bool inside = holds(start.media, mediumOf(object));
 #ifdef WITH_HEIGHTS
 #ifndef ONLY_HEIGHTS
     if (isRelief(object))
 #endif
     {
         HeightHit met;
-        inside = start.isEye ? heightsContain(object, start.position) : inside;
+        inside = start.isEye && object < u_scene.x ? heightsContain(object, start.position) : inside;
         searchHeights(start.position, start.direction, object, inside, farthest, met);
         return Meeting(met.distance, met.triangle, vec2(0.0), object, -1);
     }
@@ -138,7 +138,7 @@ Meeting searchScene(inout Start start)
                            all(lessThan(start.position, objectNumbers(object, VT_OBJECT_HIGH).xyz));
             Meeting met = meetObject(start, object, isAbout ? NOWHERE : nearest.distance + same);
             if (isAbout && holdsEye(start, object, met)) {
-                start.media = toggle(start.media, uint(object + 1));
+                start.media = toggle(start.media, mediumOf(object));
             }
             nearest = nearerOf(nearest, met, same);
         }

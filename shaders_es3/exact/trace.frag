@@ -32,7 +32,9 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
     for (int surface = 0; surface < MOST_SURFACES; ++surface) {
         Meeting met = searchScene(start);
         bool isMet = met.triangle != VT_NO_TRIANGLE;
-#ifdef WITH_OPAQUE
+#ifdef WITH_LOOKS
+        const bool isOpaque = false; // crossLook says how much of it is
+#elif defined(WITH_OPAQUE)
         bool isOpaque = isMet && met.object >= u_scene.x;
 #else
         const bool isOpaque = false;
@@ -40,11 +42,15 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
         bool isLast = p.events >= u_search.w;
         bool isOut = !isMet && (start.media == AIR || isDirect);
         end.status = isOut ? (start.isEye ? VT_PATH_BACKGROUND : VT_PATH_EXITED) : isOpaque ? VT_PATH_OPAQUE : end.status;
+#ifdef WITH_LOOKS
+        bool more = isMet;
+#else
         bool more = isMet && !isOpaque && !isLast;
+#endif
 #ifdef WITH_DEPTH
         depth = isMet && start.isEye ? met.distance * (mat3(u_worldToCamera) * p.direction).z : depth;
 #endif
-#ifdef WITH_OPAQUE // WebGL has no ?: of structures
+#if defined(WITH_OPAQUE) && !defined(WITH_LOOKS) // WebGL has no ?: of structures
         end.meeting.triangle = isOpaque ? met.triangle : end.meeting.triangle;
         end.meeting.at = isOpaque ? met.at : end.meeting.at;
         end.meeting.object = isOpaque ? met.object : end.meeting.object;
@@ -53,6 +59,26 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
             absorb(p, start.media, met.distance);
         }
         p.position += isMet ? met.distance * p.direction : vec3(0.0);
+#ifdef WITH_FOOTPRINT
+        p.footprint.place += (isMet ? met.distance : 0.0) * p.footprint.direction;
+#endif
+#ifdef WITH_LOOKS
+        if (more) {
+            absorb(p, start.media, met.distance);
+            media = start.media;
+            SurfaceHit hit = meetingSurface(met, p.position);
+#ifdef WITH_FOOTPRINT
+            float width = footprintWidth(p.footprint.place - outerProduct(p.direction, p.direction * p.footprint.place));
+#else
+            const float width = 0.0; // there are no pictures
+#endif
+            Look look = lookAt(met, hit, width);
+            more = crossLook(p, media, look, hit, met.also, isLast, end.status);
+            more = more && (p.events < u_search.w || media == AIR);
+            bool isBehind = met.object < u_scene.x && dot(p.direction, look.G) * dot(start.direction, look.G) > 0.0;
+            start = Start(p.position, p.direction, media, met.object, met.triangle, false, isBehind, isDirect);
+        }
+#else
         if (more) {
             SurfaceHit hit = meetingSurface(met, p.position);
             Media before = start.media;
@@ -66,6 +92,7 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
             more = p.events < u_search.w || media == AIR;
             start = Start(p.position, p.direction, media, met.object, met.triangle, false, media != before, false);
         }
+#endif
         if (!more) {
             break;
         }
@@ -76,14 +103,34 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
     return end;
 }
 
-// Light that a ray brings; what is opaque at its end, if anything.
-vec3 lightAlong(vec3 direction, Meeting opaque, vec3 position)
+// Light that a ray brings from its end; what is opaque there, if anything.
+vec3 lightAlong(Path p, Meeting opaque)
 {
-    vec3 light = surroundings(position, direction); // a lost path sees it, too
-#ifdef WITH_OPAQUE
+    float width = 0.0; // of what the pixel covers: only pictures ask for it
+#ifdef WITH_FOOTPRINT
+    width = footprintWidth(p.footprint.direction);
+#endif
+    vec3 light = surroundings(p.position, p.direction, width); // a lost path sees it, too
+#if defined(WITH_OPAQUE) && !defined(WITH_LOOKS)
     if (opaque.triangle != VT_NO_TRIANGLE) {
-        float pixel = (u_pictureFrustum.w - u_pictureFrustum.y) / float(u_size.y);
-        light = shadeSurface(opaque.object, RecordHit(0.0, opaque.triangle, opaque.at), direction, pixel * mix(length(position - u_eye.xyz), 1.0, u_clip.w));
+#if defined(ONLY_HEIGHTS)
+        OpaqueSurface at = opaqueHeights(opaque.object, opaque.triangle, p.position);
+#else
+        OpaqueSurface at;
+#ifdef WITH_HEIGHTS
+        if (isRelief(opaque.object)) {
+            at = opaqueHeights(opaque.object, opaque.triangle, p.position);
+        } else
+#endif
+        {
+            at = opaqueSurface(opaque.object, RecordHit(0.0, opaque.triangle, opaque.at));
+        }
+#endif
+#ifdef WITH_FOOTPRINT
+        light = shadeOpaque(opaque.object, at, p.direction, p.footprint);
+#else
+        light = shadeOpaque(opaque.object, at, p.direction, 0.0); // no picture is seen
+#endif
     }
 #endif
     return light;
@@ -101,11 +148,15 @@ void main()
     readObject();
 #endif
     vec2 tangent = pictureTangent(gl_FragCoord.xy);
-    Path p = startPath(eyePosition(tangent), cameraDirection(tangent));
+    vec3 view = cameraDirection(tangent);
+#ifdef WITH_FOOTPRINT
+    Footprint footprint = eyeFootprint(tangent, view), firstFootprint = footprint;
+#endif
+    Path p = startPath(eyePosition(tangent), view AND_FOOTPRINT);
 #ifdef STRICT
     End end = followPath(p, AIR, true, false);
     o_path = uvec4(floatBitsToUint(p.direction), pathState(p, end.status));
-    writeLight(p.transmittance * lightAlong(p.direction, end.meeting, p.position), end.status);
+    writeLight(p.transmittance * lightAlong(p, end.meeting), end.status);
 #else
     Media media = AIR;
     vec3 light = vec3(0.0);
@@ -124,12 +175,19 @@ void main()
         {
             end = followPath(p, media, isOwn, isDirect);
         }
-        light += p.transmittance * lightAlong(p.direction, end.meeting, p.position);
+#ifdef WITH_LOOKS
+        p.transmittance *= end.status == VT_PATH_OPAQUE ? 0.0 : 1.0; // all its light is there
+        light += p.light;
+#endif
+        light += p.transmittance * lightAlong(p, end.meeting);
         if (isOwn) {
             status = end.status;
             path = uvec4(floatBitsToUint(p.direction), pathState(p, status));
             firstPosition = p.firstPosition;
             firstDirection = p.firstDirection;
+#ifdef WITH_FOOTPRINT
+            firstFootprint = p.firstFootprint;
+#endif
             firstLight = vec3(p.firstShare);
         }
         bool isAside = strongest(p.aside) > 0.0;
@@ -137,7 +195,11 @@ void main()
         isDirect = !isAside || left == 0 || strongest(next) < VT_LEAST_BRANCH;
         --left;
         media = p.asideMedia;
-        p = startPath(isAside ? p.asidePosition : firstPosition, isAside ? p.asideDirection : firstDirection);
+#ifdef WITH_FOOTPRINT
+        footprint.place = isAside ? p.asideFootprint.place : firstFootprint.place;
+        footprint.direction = isAside ? p.asideFootprint.direction : firstFootprint.direction;
+#endif
+        p = startPath(isAside ? p.asidePosition : firstPosition, isAside ? p.asideDirection : firstDirection AND_FOOTPRINT);
         p.transmittance = next;
         // Another number for every sample, that does not hang together with the path's own: 43 steps of the golden ratio.
         p.choice = u_eye.w < 0.0 ? u_eye.w : fract(43.0 * u_eye.w);

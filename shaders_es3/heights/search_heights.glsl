@@ -228,6 +228,7 @@ SurfaceHit heightsSurfaceAt(int object, uint triangle, vec3 position)
     ReliefBox box = readRelief(object);
     Transform transform = readTransform(object);
     vec3 normal, flatNormal;
+    mat3 change = mat3(0.0); // of the normal, over own coordinates
     if (triangle >= WALLS) {
         uint wall = triangle - WALLS;
         float sign = (wall & 1u) == 0u ? -1.0 : 1.0;
@@ -243,7 +244,14 @@ SurfaceHit heightsSurfaceAt(int object, uint triangle, vec3 position)
         flatNormal = vec3((isAbove ? vec2(z.z - z.w, z.x - z.z) : vec2(z.x - z.y, z.y - z.w)) / box.cell, 1.0);
         vec3 side = sampleNormal(cell + (isAbove ? ivec2(0, 1) : ivec2(1, 0)), box.cell);
         float most = isAbove ? p.y : p.x, least = isAbove ? p.x : p.y;
-        normal = (1.0 - most) * sampleNormal(cell, box.cell) + (most - least) * side + least * sampleNormal(cell + 1, box.cell);
+        vec3 low = sampleNormal(cell, box.cell), high = sampleNormal(cell + 1, box.cell);
+        normal = (1.0 - most) * low + (most - least) * side + least * high;
+        vec3 first = (side - low) / box.cell, second = (high - side) / box.cell;
+        change = isAbove ? mat3(second, first, vec3(0.0)) : mat3(first, second, vec3(0.0));
     }
-    return SurfaceHit(position, normalToWorld(transform, normal), normalToWorld(transform, flatNormal), object);
+    return SurfaceHit(position, normalToWorld(transform, normal), normalToWorld(transform, flatNormal), object
+#ifdef WITH_FOOTPRINT
+                      , turnToWorld(transform, normal, change)
+#endif
+                      );
 }

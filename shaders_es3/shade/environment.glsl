@@ -100,15 +100,16 @@ vec3 environmentSky(vec3 d)
 }
 
 // Row 0 of the texture is the picture's top row, so t runs against v. The texture repeats in s and clamps in
-// t; level 0 is named because derivatives jump at the seam and where paths part.
-vec3 environmentImage(highp sampler2D image, vec3 d)
+// t; the level is named because derivatives jump at the seam and where paths part. `width`: the angle that is covered.
+vec3 environmentImage(highp sampler2D image, vec3 d, float width)
 {
     vec2 uv = environmentCoordinates(d);
-    return textureLod(image, vec2(uv.x, 1.0 - uv.y), 0.0).rgb;
+    float texels = width * float(textureSize(image, 0).y) / ENVIRONMENT_PI;
+    return textureLod(image, vec2(uv.x, 1.0 - uv.y), log2(max(texels, 1.0))).rgb;
 }
 
-// `kind` is a vtEnvironmentKind.
-vec3 environmentRadiance(int kind, highp sampler2D image, vec3 d)
+// `kind` is a vtEnvironmentKind; `width`: the angle that is covered, of which only a picture takes the mean.
+vec3 environmentRadiance(int kind, highp sampler2D image, vec3 d, float width)
 {
     if (kind == 0) {
         return environmentChecker(d);
@@ -119,5 +120,5 @@ vec3 environmentRadiance(int kind, highp sampler2D image, vec3 d)
     if (kind == 2) {
         return environmentSky(d);
     }
-    return environmentImage(image, d);
+    return environmentImage(image, d, width);
 }

@@ -37,8 +37,8 @@ vec3 lightingLevel(int level, vec2 uv)
     return mix(above, below, fract(y));
 }
 
-// Radiance about the direction a surface of that roughness reflects to.
-vec3 specularLight(vec3 direction, float roughness)
+// Radiance about the direction a surface of that roughness reflects to. `width`: the angle that is covered.
+vec3 specularLight(vec3 direction, float roughness, float width)
 {
     // Level i holds roughness 0.025 (i + 1) (i + 4); -1 is the environment itself.
     float at = 0.5 * (sqrt(9.0 + 160.0 * clamp(roughness, 0.0, 1.0)) - 5.0);
@@ -46,7 +46,7 @@ vec3 specularLight(vec3 direction, float roughness)
     vec2 uv = environmentCoordinates(direction);
     vec3 light;
     if (level < 0) {
-        light = environmentRadiance(u_output.z, u_environment, direction);
+        light = environmentRadiance(u_output.z, u_environment, direction, width);
     } else {
         light = lightingLevel(level, uv);
     }

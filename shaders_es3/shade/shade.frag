@@ -11,7 +11,7 @@ vec3 opaqueLight(OpaqueHit opaque, vec3 origin, vec3 direction)
 {
     float pixel = (u_pictureFrustum.w - u_pictureFrustum.y) / float(u_size.y);
     vec3 position = origin + opaque.hit.distance * direction;
-    return shadeSurface(opaque.object, opaque.hit, direction, pixel * mix(length(position - u_eye.xyz), 1.0, u_clip.w));
+    return shadeOpaque(opaque.object, opaqueSurface(opaque.object, opaque.hit), direction, pixel * mix(length(position - u_eye.xyz), 1.0, u_clip.w));
 }
 #endif
 
@@ -39,6 +39,17 @@ Ray firstReflection(uvec4 surface, vec2 tangent, vec3 direction)
     return Ray(position, R, vec3(isWithin ? 0.0 : fresnel(-dot(N, direction), eta)));
 }
 
+// The angle that a pixel covers at the end of its path, from its neighbours' ends. (Techniques without a shade pass carry
+// it along: common/footprint.glsl.) A neighbour with other events is of another part of the glass and does not count.
+float endWidth(vec3 direction, uint state)
+{
+    float events = float(state % (2u * uint(VT_PATH_TIR)));
+    vec3 x = dFdx(direction), y = dFdy(direction);
+    float right = dFdx(events) == 0.0 ? length(x) : 0.0, up = dFdy(events) == 0.0 ? length(y) : 0.0;
+    float width = min(right, up) > 0.0 ? sqrt(length(cross(x, y))) : max(right, up);
+    return width * inversesqrt(max(u_optics.w, 1.0)); // of one of several samples
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -47,6 +58,7 @@ void main()
     uvec4 path = readTexel(u_paths, pixel, u_size.xy);
     int status = int(path.w) & 255;
     bool isBackground = status == VT_PATH_BACKGROUND;
+    float width = endWidth(isBackground ? view : uintBitsToFloat(path.xyz), path.w);
     vec3 light = vec3(0.0);
     // Up to three rays to light: the path's end, what went aside, what the first surface reflects. They are looked at in
     // a loop because software renderers compute both sides of every branch.
@@ -87,7 +99,7 @@ void main()
         ray.origin = i == 1 ? first.origin : i == 2 ? aside.origin : ray.origin;
         ray.direction = i == 1 ? first.direction : i == 2 ? aside.direction : ray.direction;
         ray.weight = i == 1 ? first.weight : i == 2 ? aside.weight : ray.weight;
-        vec3 seen = surroundings(ray.origin, ray.direction); // a lost path sees it, too
+        vec3 seen = surroundings(ray.origin, ray.direction, i == 0 ? width : 0.0); // a lost path sees it, too
 #ifdef WITH_OPAQUE
         OpaqueHit opaque = known;
         if (i > 0 || isSearched) {

@@ -51,46 +51,112 @@ float imageLevel(float footprint, float areaOfTexture, float area)
     return log2(max(texels, 1.0));
 }
 
-// The share of light about the mirror direction that is reflected.
-vec3 reflectedShare(vec3 F0, float roughness, float cosine)
+// The share of light about the mirror direction that is reflected. F0, F90: of a smooth surface straight on and along it.
+vec3 reflectedShare(vec3 F0, float F90, float roughness, float cosine)
 {
     vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
-    return max(F0 * (r.z - 1.04 * a) + (r.w + 1.04 * a), 0.0);
+    return max(F0 * (r.z - 1.04 * a) + F90 * (r.w + 1.04 * a), 0.0);
 }
 
-// Radiance that leaves an opaque object where a ray has met it, against the ray's direction I. `footprint`: how much of the world a pixel covers there, 0: images at full size.
-vec3 shadeSurface(int object, RecordHit hit, vec3 I, float footprint)
+#ifdef WITH_FOOTPRINT
+// The roughness of a surface that reflects to `width` more directions, an angle: a square's variance, a twelfth of its
+// side's square, is half as wide in half vectors, and alpha's square is twice their variance. Less than the least blurred
+// level of the lighting holds is the environment's own, at that width.
+float widened(float roughness, float width)
+{
+    float alpha = roughness * roughness, wide = sqrt(sqrt(alpha * alpha + width * width / 24.0));
+    return wide > 0.1 ? min(wide, 1.0) : roughness;
+}
+#endif
+
+// What there is of an opaque surface where a ray has met it.
+struct OpaqueSurface {
+    vec3 normal, flatNormal; // world, outward
+    vec2 at;                 // texture coordinates
+    vec3 color;
+    float areaOfTexture, area; // of a part of the surface, in texture coordinates and in the world
+#ifdef WITH_FOOTPRINT
+    mat3 turn; // what a step along the surface does to the normal
+#endif
+};
+
+OpaqueSurface opaqueSurface(int object, RecordHit hit)
 {
     Corners corners = recordCorners(hit.triangle);
+    Transform transform = readTransform(object);
     vec3 area = areaInWorld(object, cornersArea(corners));
     vec3 w = vec3(1.0 - hit.at.x - hit.at.y, hit.at);
+    uint first = objectBits(object, VT_OBJECT_COLOR).w;
+    Attributes attributes = Attributes(vec2(0.0), vec3(1.0), 0.0);
+    if (first != VT_NO_TRIANGLE) {
+        uint record = (hit.triangle >> 1u) - objectBits(object, VT_OBJECT_GRID_LOW).w; // of the mesh's
+        attributes = attributesAt(first + record, hit.triangle & 1u, w);
+    }
+    return OpaqueSurface(normalToWorld(transform, cornersNormal(corners, hit.at)), normalize(area), attributes.at,
+                         attributes.color, attributes.area, 0.5 * length(area)
+#ifdef WITH_FOOTPRINT
+                         , cornersTurn(transform, corners, hit.at)
+#endif
+                         );
+}
+
+#ifdef WITH_HEIGHTS
+// Of a relief that is met by its heights, at that place.
+OpaqueSurface opaqueHeights(int object, uint triangle, vec3 position)
+{
+    ReliefBox box = readRelief(object);
+    Transform transform = readTransform(object);
+    SurfaceHit hit = heightsSurfaceAt(object, triangle, position);
+    vec2 extent = box.high.xy * box.cell;
+    vec2 at = (toObject(transform, vec4(position, 1.0)).xy - box.corner) / extent;
+    // The whole picture, on a plane as steep as the surface is.
+    float steep = abs(dot(hit.flatNormal, cross(transform.x.xyz, transform.y.xyz)));
+    return OpaqueSurface(hit.normal, hit.flatNormal, vec2(at.x, 1.0 - at.y), vec3(1.0), 1.0, extent.x * extent.y / max(steep, 1e-6)
+#ifdef WITH_FOOTPRINT
+                         , hit.turn
+#endif
+                         );
+}
+#endif
+
+// Radiance that leaves an opaque object against the ray's direction I. `footprint`: how much of the world a pixel covers
+// there, 0: images at full size; or what neighbouring rays do.
+#ifdef WITH_FOOTPRINT
+vec3 shadeOpaque(int object, OpaqueSurface at, vec3 I, Footprint steps)
+#else
+vec3 shadeOpaque(int object, OpaqueSurface at, vec3 I, float footprint)
+#endif
+{
     vec4 surface = objectNumbers(object, VT_OBJECT_SURFACE);
     uvec4 images = objectBits(object, VT_OBJECT_IMAGES);
-    uvec4 row = objectBits(object, VT_OBJECT_COLOR);
-    Attributes attributes = Attributes(vec2(0.0), vec3(1.0), 0.0);
-    if (row.w != VT_NO_TRIANGLE) {
-        uint record = (hit.triangle >> 1u) - objectBits(object, VT_OBJECT_GRID_LOW).w; // of the mesh's
-        attributes = attributesAt(row.w + record, hit.triangle & 1u, w);
-    }
-    float level = imageLevel(footprint, attributes.area, 0.5 * length(area));
-    vec3 base = uintBitsToFloat(row.xyz) * readImage(images.x, attributes.at, level) * attributes.color;
-    vec2 square = floor(surface.z * attributes.at);
+#ifdef WITH_FOOTPRINT
+    mat2x3 place = alongSurface(steps.place, I, at.flatNormal);
+    float footprint = footprintWidth(place);
+#endif
+    float level = imageLevel(footprint, at.areaOfTexture, at.area);
+    vec3 base = objectNumbers(object, VT_OBJECT_COLOR).rgb * readImage(images.x, at.at, level) * at.color;
+    vec2 square = floor(surface.z * at.at);
     if (2.0 * fract(0.5 * (square.x + square.y)) > 0.5) { // odd
         base *= 0.15;
     }
-    vec3 share = readImage(images.y, attributes.at, level);
+    vec3 share = readImage(images.y, at.at, level);
     float metallic = surface.x * share.b, roughness = surface.y * share.g;
 
     // On the viewer's side, or the triangle's own where the interpolated one faces away.
-    vec3 G = normalize(area);
-    vec3 N = normalToWorld(readTransform(object), cornersNormal(corners, hit.at));
+    vec3 G = at.flatNormal;
     float side = dot(G, I) > 0.0 ? -1.0 : 1.0;
-    N = side * (dot(side * N, I) < 0.0 ? N : G);
+    bool isSmooth = dot(side * at.normal, I) < 0.0;
+    vec3 N = side * (isSmooth ? at.normal : G);
 
-    float cosine = -dot(N, I);
+    float cosine = -dot(N, I), width = 0.0;
+#ifdef WITH_FOOTPRINT
+    mat2x3 turn = (isSmooth ? side : 0.0) * (at.turn * place);
+    width = footprintWidth(bendFootprint(steps.direction, I, N, turn, 1.0, true));
+    roughness = widened(roughness, width);
+#endif
     vec3 F0 = mix(vec3(0.04), base, metallic);
     vec3 diffuse = (1.0 - metallic) * base * diffuseLight(N);
-    vec3 specular = specularLight(normalize(I + 2.0 * cosine * N), roughness) * reflectedShare(F0, roughness, cosine);
+    vec3 specular = specularLight(normalize(I + 2.0 * cosine * N), roughness, width) * reflectedShare(F0, 1.0, roughness, cosine);
     return diffuse + specular + objectNumbers(object, VT_OBJECT_EMISSIVE).xyz;
 }

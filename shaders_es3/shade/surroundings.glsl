@@ -4,9 +4,10 @@
 uniform sampler2D u_environment;
 #endif
 
-vec3 surroundings(vec3 position, vec3 direction)
+// `width`: the angle that is covered.
+vec3 surroundings(vec3 position, vec3 direction, float width)
 {
-    vec3 light = environmentRadiance(u_output.z, u_environment, direction);
+    vec3 light = environmentRadiance(u_output.z, u_environment, direction, width);
 #ifdef WITH_BACKDROP
     vec3 seen;
     if (lightFromHost(position, direction, seen)) {

@@ -8,6 +8,14 @@
 #define VT_ABOUT(text) text
 #endif
 
+/// Files beside a model (vtModelDef.readFile), and what is packed in it: a page's element has one file, and
+/// no library that unpacks.
+#ifndef __EMSCRIPTEN__
+#define VT_WITH_FILES 1
+#else
+#define VT_WITH_FILES 0
+#endif
+
 /// Views as matrices, and pictures of a host's: vtFrame.viewMatrix, overlay and hostColor. A page's element
 /// has its canvas to itself, and goes without what it does not use.
 #ifndef __EMSCRIPTEN__

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "gl/lighting_texture.h"
+#include "light/environment_levels.h"
 
 void vtEnvironmentBuffer_Create(vtEnvironmentBuffer* buffer, const vtGL* gl)
 {
@@ -39,6 +40,41 @@ static vtResult shrinkEnvironment(const vtEnvironment* environment, vtEnvironmen
     return vt_ok;
 }
 
+/// A texture for a picture of that size and all its levels.
+static void makePicture(vtTexture* texture, const vtGL* gl, int width, int height)
+{
+    *texture = (vtTexture){0, GL_TEXTURE_2D, GL_RGB16F, width, height, 0, true};
+    gl->GenTextures(1, &texture->name);
+    vtTexture_Bind(texture, gl, vt_samplerNone);
+    gl->TexStorage2D(GL_TEXTURE_2D, vtEnvironmentLevelCount(width, height), texture->format, width, height);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+static vtResult uploadPicture(vtTexture* texture, const vtGL* gl, const vtEnvironment* environment,
+                              vtError* error)
+{
+    const int width = environment->width, height = environment->height;
+    makePicture(texture, gl, width, height);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGB, GL_FLOAT, environment->pixels);
+    const size_t quarter = (size_t)(width / 2 + 1) * (size_t)(height / 2 + 1);
+    float* shown = vtAllocate(quarter, 3 * sizeof *shown);
+    vtEnvironmentLevel level = {0};
+    bool ready = shown != NULL;
+    for (int i = 1; i < vtEnvironmentLevelCount(width, height) && ready; ++i) {
+        ready = vtHalveEnvironment(environment, &level);
+        if (ready) {
+            vtWidenEnvironment(&level, shown);
+            gl->TexSubImage2D(GL_TEXTURE_2D, i, 0, 0, level.width, level.height, GL_RGB, GL_FLOAT, shown);
+        }
+    }
+    vtFree(level.pixels);
+    vtFree(shown);
+    return ready ? vt_ok : vtFail(error, vt_errorMemory, "environment: out of memory");
+}
+
 vtResult vtEnvironmentBuffer_Set(vtEnvironmentBuffer* buffer, const vtGL* gl,
                                  const vtEnvironment* environment, vtError* error)
 {
@@ -53,14 +89,13 @@ vtResult vtEnvironmentBuffer_Set(vtEnvironmentBuffer* buffer, const vtGL* gl,
             width, height, largest);
     }
     vtTexture fresh = {0};
-    vtTexture_Resize(&fresh, gl, GL_RGB16F, width, height, 0);
+    vtResult result = vt_ok;
     if (isImage) {
-        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGB, GL_FLOAT, environment->pixels);
+        result = uploadPicture(&fresh, gl, environment, error);
+    } else {
+        vtTexture_Resize(&fresh, gl, GL_RGB16F, 1, 1, 0);
     }
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    vtResult result = vtCheckGL(gl, "uploading the environment", error);
+    result = result == vt_ok ? vtCheckGL(gl, "uploading the environment", error) : result;
     if (result != vt_ok) {
         vtTexture_Destroy(&fresh, gl);
         return result;

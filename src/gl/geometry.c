@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
+#include "base/octahedral.h"
+#include "mesh/height_field.h"
 #include "mesh/hierarchy.h"
 
 // ------------------------------------------------------------------------------------------------- room
@@ -158,14 +160,42 @@ static void writeAttributes(const vtMesh* mesh, const vtHierarchy* hierarchy, ui
         if (hierarchy->corners[i / 4 * 4] == VT_NO_TRIANGLE) { // no leaf
             continue;
         }
-        if (mesh->texcoords != NULL) {
+        float at[2];
+        if (mesh->heights != NULL) {
+            vtHeightField_Texcoord(mesh->heights, vtMakeVec3(mesh->positions + 3 * vertex), at);
+            memcpy(words, at, sizeof at);
+        } else if (mesh->texcoords != NULL) {
             memcpy(words, mesh->texcoords + 2 * vertex, 2 * sizeof(float));
         }
         const float white[3] = {1.0f, 1.0f, 1.0f};
         const float* color = mesh->colors != NULL ? mesh->colors + 3 * vertex : white;
+        const float alpha = mesh->alphas != NULL ? mesh->alphas[vertex] : 1.0f;
         words[2] = packHalf(color[0]) | packHalf(color[1]) << 16;
-        words[3] = packHalf(color[2]);
+        words[3] = packHalf(color[2]) | packHalf(alpha) << 16;
     }
+}
+
+/// Those of more attributes.
+static void writeMore(const vtMesh* mesh, const vtHierarchy* hierarchy, uint32_t* words)
+{
+    for (uint32_t i = 0; i < 4 * hierarchy->recordCount; ++i, words += 4) {
+        const size_t vertex = hierarchy->corners[i];
+        if (hierarchy->corners[i / 4 * 4] == VT_NO_TRIANGLE) { // no leaf
+            continue;
+        }
+        if (mesh->texcoords1 != NULL) {
+            memcpy(words, mesh->texcoords1 + 2 * vertex, 2 * sizeof(float));
+        }
+        if (mesh->tangents != NULL) {
+            words[2] = vtPackNormal(mesh->tangents + 4 * vertex);
+            words[3] = mesh->tangents[4 * vertex + 3] < 0.0f;
+        }
+    }
+}
+
+static bool hasMore(const vtMesh* mesh)
+{
+    return mesh->texcoords1 != NULL || mesh->tangents != NULL;
 }
 
 static vtResult uploadAttributes(vtGeometryStore* store, const vtGL* gl, const vtMesh* mesh,
@@ -174,12 +204,15 @@ static vtResult uploadAttributes(vtGeometryStore* store, const vtGL* gl, const v
     if (range.count == 0) {
         return vt_ok;
     }
-    uint32_t* words = vtAllocateZeroed(hierarchy->recordCount, VT_RECORD_WORDS * sizeof *words);
+    uint32_t* words = vtAllocateZeroed(range.count, VT_RECORD_WORDS * sizeof *words);
     if (words == NULL) {
         return vtFail(error, vt_errorMemory, "scene: out of memory for the attributes of %u triangles",
                       mesh->indexCount / 3);
     }
     writeAttributes(mesh, hierarchy, words);
+    if (range.count > hierarchy->recordCount) {
+        writeMore(mesh, hierarchy, words + (size_t)hierarchy->recordCount * VT_RECORD_WORDS);
+    }
     vtTexture_SetRecords(&store->attributes, gl, range.first, range.count, words);
     vtFree(words);
     return vt_ok;
@@ -205,7 +238,8 @@ static vtMesh shapeOf(const vtMesh* mesh)
 
 static bool usesAttributes(const vtMesh* mesh, vtGeometryUse use)
 {
-    return use.attributes && (mesh->texcoords != NULL || mesh->colors != NULL);
+    return use.attributes &&
+           (mesh->texcoords != NULL || mesh->colors != NULL || mesh->heights != NULL || hasMore(mesh));
 }
 
 /// `item` has nothing yet; on failure it holds what is to be freed.
@@ -215,10 +249,14 @@ static vtResult uploadTriangles(vtGeometryStore* store, const vtGL* gl, const vt
 {
     const bool attributes = usesAttributes(mesh, use);
     copyPlan(item, hierarchy);
+    item->colored = mesh->colors != NULL;
     item->overlaps = use.glass && vtHierarchy_Overlaps(hierarchy);
     vtResult result = takeRange(store, gl, mesh, false, hierarchy->recordCount, &item->records, error);
     if (result == vt_ok && attributes) {
-        result = takeRange(store, gl, mesh, true, hierarchy->recordCount, &item->attributes, error);
+        const uint64_t count = (uint64_t)hierarchy->recordCount * (hasMore(mesh) ? 2 : 1);
+        result = count <= UINT32_MAX
+                     ? takeRange(store, gl, mesh, true, (uint32_t)count, &item->attributes, error)
+                     : failTooMany(gl, mesh, mesh->indexCount / 3, error);
     }
     if (result == vt_ok) {
         result = uploadAttributes(store, gl, mesh, hierarchy, item->attributes, error);
@@ -337,7 +375,9 @@ static vtResult prepareAll(vtGeometryStore* store, const vtGL* gl, const vtMesh*
         result = findHierarchy(gl, &meshes[i], &built[i], &found, error);
         if (result == vt_ok) {
             records += found->recordCount;
-            attributes += usesAttributes(&meshes[i], uses[i]) ? found->recordCount : 0;
+            attributes += usesAttributes(&meshes[i], uses[i])
+                              ? (hasMore(&meshes[i]) ? 2ull : 1ull) * found->recordCount
+                              : 0;
             result = records <= mostRecords(gl) ? vt_ok : failTooMany(gl, &meshes[i], triangles, error);
         }
     }

@@ -22,9 +22,12 @@ typedef struct vtRecordRange {
 
 typedef struct vtGeometryBuffer {
     bool isThere;
-    vtMeshBuffer vertices;     ///< empty without triangles
-    vtRecordRange records;     ///< of its hierarchy, in vtGeometryStore.records; none without triangles
-    vtRecordRange attributes;  ///< of the corners of those, in vtGeometryStore.attributes; none: it has none
+    vtMeshBuffer vertices; ///< empty without triangles
+    vtRecordRange records; ///< of its hierarchy, in vtGeometryStore.records; none without triangles
+    /// Of the corners of those, in vtGeometryStore.attributes; none: it has none. Twice as many: the second
+    /// half is those of more attributes
+    vtRecordRange attributes;
+    bool colored;              ///< it has colours
     vtVec3 origin;             ///< of the own coordinates, in the mesh's
     vtVec3 gridLow, gridScale; ///< of the hierarchy's boxes (mesh/hierarchy.h)
     bool overlaps;             ///< glass: parts run into each other

@@ -5,15 +5,17 @@
 
 #include "base/error.h"
 
-/// Reads "OpenGL ES 3.0 ..." (also WebGL 2 as Emscripten reports it) or "3.3 ..." of desktop GL.
+#ifndef __EMSCRIPTEN__
+/// Reads "OpenGL ES 3.0 ..." or "3.3 ..." of desktop GL.
 static bool isNewEnough(const char* version)
 {
     const char* embedded = strstr(version, "OpenGL ES ");
-    char* end = NULL; // sscanf would read floats too: 6 KB of a page's compressed wasm
+    char* end = NULL;
     const long major = strtol(embedded != NULL ? embedded + 10 : version, &end, 10);
     const long minor = *end == '.' ? strtol(end + 1, NULL, 10) : 0;
     return embedded != NULL ? major >= 3 : major * 10 + minor >= 33;
 }
+#endif
 
 static bool hasExtension(const vtGL* gl, const char* name)
 {
@@ -31,7 +33,7 @@ vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
 {
     *gl = (vtGL){0};
 #ifdef __EMSCRIPTEN__
-    (void)getProcAddress;
+    (void)getProcAddress; // nor is a version looked at: the page makes contexts of WebGL 2 only
 #define VT_GL_LOAD(type, name) gl->name = gl##name;
     VT_GL_FUNCTIONS(VT_GL_LOAD)
     VT_GL_HOST_FUNCTIONS(VT_GL_LOAD)
@@ -55,7 +57,6 @@ vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
                       "GL: the context has no %s; OpenGL ES 3.0, WebGL 2 or desktop GL 3.3 is needed",
                       missing);
     }
-#endif
     const char* version = (const char*)gl->GetString(GL_VERSION);
     if (version == NULL) {
         return vtFail(error, vt_errorContext,
@@ -66,6 +67,7 @@ vtResult vtLoadGL(vtGetProcAddressFcn* getProcAddress, vtGL* gl, vtError* error)
                       "GL: the context is '%s'; OpenGL ES 3.0, WebGL 2 or desktop GL 3.3 is needed", version);
     }
     gl->isDesktop = strstr(version, "OpenGL ES ") == NULL;
+#endif
     gl->parallelCompile = hasExtension(gl, "GL_KHR_parallel_shader_compile");
     return vtSucceed(error);
 }

@@ -99,6 +99,9 @@ typedef struct vtGL {
     VT_GL_FUNCTIONS(VT_GL_MEMBER)
     VT_GL_HOST_FUNCTIONS(VT_GL_MEMBER)
 #undef VT_GL_MEMBER
+    /// Names and texts of shaders in turn, each ended by 0, after the last an empty name; NULL: there are
+    /// none, or they are not loaded yet. The caller's.
+    const char* laterShaders;
     bool isDesktop;       ///< desktop GL, not OpenGL ES or WebGL
     bool parallelCompile; ///< KHR_parallel_shader_compile: the driver tells when a program is ready
 } vtGL;

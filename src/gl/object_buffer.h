@@ -7,9 +7,10 @@
 typedef struct vtObjectBuffer {
     vtPlacedObject placed; ///< placed.mesh: counts, box and volume only
     vtMaterial material;
-    uint32_t geometry;       ///< in vtSceneBuffer.geometry.items
-    vtVec3 ownMin, ownMax;   ///< the mesh's box in the object's own coordinates
-    uint32_t firstAttribute; ///< record, or VT_NO_TRIANGLE
-    bool bothSides; ///< opaque, or glass with open edges or parts that overlap: rays meet its triangles from
-                    ///< either side
+    uint32_t geometry;                  ///< in vtSceneBuffer.geometry.items
+    vtVec3 ownMin, ownMax;              ///< the mesh's box in the object's own coordinates
+    uint32_t firstAttribute, firstMore; ///< records of its attributes, or VT_NO_TRIANGLE
+    uint32_t colorLayer, roughLayer;    ///< of the array of images: its first two maps; or VT_NO_TRIANGLE
+    bool bothSides; ///< opaque, or glass with open edges, parts that overlap or holes (alpha): rays meet its
+                    ///< triangles from either side
 } vtObjectBuffer;

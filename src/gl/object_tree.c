@@ -71,6 +71,12 @@ vtResult vtObjectTree_Upload(vtTexture* texture, const vtGL* gl, const vtObjectB
                              uint32_t count, vtError* error)
 {
     const uint32_t nodes = 2 * count - 1, rows = (nodes + VT_OBJECT_NODES_A_ROW - 1) / VT_OBJECT_NODES_A_ROW;
+    GLint largest = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (count > (uint32_t)largest) { // the table of objects has a row for each
+        return vtFail(error, vt_errorContext,
+                      "scene: %u objects are more than this GPU's textures have rows (%d)", count, largest);
+    }
     Item* items = vtAllocate(count, sizeof *items);
     uint32_t* words = vtAllocateZeroed((size_t)rows * VT_OBJECT_NODES_A_ROW, 8 * sizeof *words);
     if (items == NULL || words == NULL) {

@@ -31,6 +31,7 @@ static const char* const samplerNames[vt_samplerCount] = {
     [vt_samplerObjectTree] = "u_objectTree",
     [vt_samplerAttributes] = "u_attributes",
     [vt_samplerImages] = "u_images",
+    [vt_samplerMaterials] = "u_materials",
     [vt_samplerHeights] = "u_heights",
     [vt_samplerHeightRanges] = "u_heightRanges",
     [vt_samplerEnvironment] = "u_environment",
@@ -54,6 +55,28 @@ void vtProgramDef_SetFragment(vtProgramDef* def, const vtChunk* const* chunks, s
             def->fragment[used++] = chunks[i];
         }
     }
+}
+
+/// A chunk's text; NULL where it is still to be loaded.
+static const char* findText(const vtGL* gl, const vtChunk* chunk)
+{
+    const char* name = gl->laterShaders;
+    const char* text = chunk->source;
+    while (text == NULL && name != NULL && *name != '\0') {
+        const char* after = name + strlen(name) + 1;
+        text = strcmp(name, chunk->name) == 0 ? after : NULL;
+        name = after + strlen(after) + 1;
+    }
+    return text;
+}
+
+static bool hasTexts(const vtGL* gl, const vtChunk* const* chunks)
+{
+    bool all = true;
+    for (int i = 0; i < VT_MAX_CHUNKS && chunks[i] != NULL; ++i) {
+        all = all && findText(gl, chunks[i]) != NULL;
+    }
+    return all;
 }
 
 static int countLines(const char* text)
@@ -80,13 +103,13 @@ static int collectChunks(const vtChunk* const* chunks, const vtChunk** all)
 }
 
 /// "peel.frag: lines 1-7 header, 8-30 constants, ..." so that a driver's line number can be found.
-static void describeChunks(const vtChunk* const* chunks, int count, char* text, size_t size)
+static void describeChunks(const vtGL* gl, const vtChunk* const* chunks, int count, char* text, size_t size)
 {
     int line = 1;
     size_t used = 0;
     text[0] = '\0';
     for (int i = 0; i < count && used < size; ++i) {
-        int lines = countLines(chunks[i]->source);
+        int lines = countLines(findText(gl, chunks[i]));
         int n = snprintf(text + used, size - used, "%s%s %d-%d", i > 0 ? ", " : "", chunks[i]->name, line,
                          line + lines - 1);
         used += n > 0 ? (size_t)n : 0;
@@ -112,7 +135,7 @@ static GLuint compile(const vtGL* gl, GLenum stage, const vtChunk* const* chunks
     const char* sources[VT_MAX_CHUNKS + 3];
     const int count = collectChunks(chunks, all);
     for (int i = 0; i < count; ++i) {
-        sources[i] = all[i]->source;
+        sources[i] = findText(gl, all[i]);
     }
     const GLuint shader = gl->CreateShader(stage);
     gl->ShaderSource(shader, count, sources, NULL);
@@ -132,7 +155,7 @@ static vtResult checkShader(const vtGL* gl, GLuint shader, const char* stage, co
     const vtChunk* all[VT_MAX_CHUNKS + 3];
     gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
     makeOneLine(log);
-    describeChunks(all, collectChunks(chunks, all), where, sizeof where);
+    describeChunks(gl, all, collectChunks(chunks, all), where, sizeof where);
     return vtFail(error, vt_errorContext, "GL: the %s shader of '%s' does not compile: %s (lines: %s)", stage,
                   name, log, where);
 }
@@ -222,13 +245,17 @@ void vtProgram_Destroy(vtProgram* program, const vtGL* gl)
 void vtProgramList_Start(vtProgramList* list, vtProgram* program, const vtGL* gl, const vtProgramDef* def)
 {
     assert(list->count < (int)(sizeof list->programs / sizeof list->programs[0]));
+    if (!hasTexts(gl, def->vertex) || !hasTexts(gl, def->fragment)) {
+        list->lacksShaders = true;
+        return;
+    }
     vtProgram_Start(program, gl, def);
     list->programs[list->count++] = program;
 }
 
 bool vtProgramList_IsReady(const vtProgramList* list, const vtGL* gl)
 {
-    bool ready = true;
+    bool ready = !list->lacksShaders;
     for (int i = 0; i < list->count; ++i) {
         ready = ready && vtProgram_IsReady(list->programs[i], gl);
     }
@@ -237,7 +264,9 @@ bool vtProgramList_IsReady(const vtProgramList* list, const vtGL* gl)
 
 vtResult vtProgramList_Finish(const vtProgramList* list, const vtGL* gl, vtError* error)
 {
-    vtResult result = vtSucceed(error);
+    vtResult result = list->lacksShaders ? vtFail(error, vt_errorContext,
+                                                  "GL: the shaders of this picture are still to be loaded")
+                                         : vtSucceed(error);
     for (int i = 0; i < list->count && result == vt_ok; ++i) {
         result = vtProgram_Finish(list->programs[i], gl, error);
     }

@@ -5,7 +5,7 @@
 /// A named piece of GLSL without #version, made from shaders_es3/ at build time.
 typedef struct vtChunk {
     const char* name;
-    const char* source;
+    const char* source; ///< NULL: it is in vtGL.laterShaders, where a page has loaded those
 } vtChunk;
 
 #define VT_MAX_CHUNKS 24
@@ -44,6 +44,7 @@ vtResult vtProgram_Finish(vtProgram* program, const vtGL* gl, vtError* error);
 typedef struct vtProgramList {
     vtProgram* programs[8];
     int count;
+    bool lacksShaders; ///< some were not started, for want of vtGL.laterShaders
 } vtProgramList;
 void vtProgramList_Start(vtProgramList* list, vtProgram* program, const vtGL* gl, const vtProgramDef* def);
 bool vtProgramList_IsReady(const vtProgramList* list, const vtGL* gl);

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
-#include "gl/image_array.h"
+#include "gl/material_table.h"
 #include "gl/object_tree.h"
 
 // --------------------------------------------------------------------------------------------- instances
@@ -83,10 +83,12 @@ static void keepObjects(vtSceneBuffer* buffer, const vtPlacedObject* placed)
         extend(&low, &high, &placed[i]);
     }
     buffer->origin = vtScale(vtAdd(low, high), 0.5f);
+    bool looks = buffer->lightCount > 0;
     for (uint32_t i = 0; i < buffer->objectCount; ++i) {
         const vtGeometryBuffer* geometry = &buffer->geometry.items[placed[i].meshIndex];
         const vtMesh* shape = placed[i].mesh;
-        const bool opaque = placed[i].material->opaque;
+        const vtMaterial* material = placed[i].material;
+        const bool any = geometry->attributes.count > 0;
         vtObjectBuffer* object = &buffer->objects[i];
         *object = (vtObjectBuffer){
             .placed = placed[i],
@@ -94,20 +96,31 @@ static void keepObjects(vtSceneBuffer* buffer, const vtPlacedObject* placed)
             .geometry = placed[i].meshIndex,
             .ownMin = vtSub(shape->boundsMin, geometry->origin),
             .ownMax = vtSub(shape->boundsMax, geometry->origin),
-            .firstAttribute =
-                opaque && geometry->attributes.count > 0 ? geometry->attributes.first : VT_NO_TRIANGLE,
-            .bothSides = opaque || shape->openEdgeCount > 0 || geometry->overlaps,
+            .firstAttribute = any ? geometry->attributes.first : VT_NO_TRIANGLE,
+            .firstMore = any && geometry->attributes.count > geometry->records.count
+                             ? geometry->attributes.first + geometry->records.count
+                             : VT_NO_TRIANGLE,
+            .colorLayer = vtImageArray_Layer(&buffer->images, &material->maps[0], vt_mapBaseColor),
+            .roughLayer = vtImageArray_Layer(&buffer->images, &material->maps[1], vt_mapMetallicRoughness),
+            .bothSides = material->opaque || material->alphaMode != vt_alphaOpaque || placed[i].thin ||
+                         shape->openEdgeCount > 0 || geometry->overlaps,
         };
+        looks = looks || placed[i].thin || !vtMaterial_IsPlain(material, geometry->colored) ||
+                (!material->opaque && buffer->instances[placed[i].object].body != 0);
         vtPlacedObject_Recentre(&object->placed, geometry->origin, buffer->origin);
     }
+    buffer->hasLooks = looks;
     findBoxes(buffer);
 }
 
-/// The first relief of glass that has its heights here.
+/// The first relief that has its heights here, of glass where there is one.
 static uint32_t findRelief(const vtSceneBuffer* buffer)
 {
     uint32_t relief = VT_NO_GEOMETRY;
-    for (uint32_t i = 0; i < buffer->glassCount; ++i) {
+    for (uint32_t i = 0; i < buffer->objectCount; ++i) {
+        if (i == buffer->glassCount && relief != VT_NO_GEOMETRY) {
+            break;
+        }
         const uint32_t geometry = buffer->objects[i].geometry;
         relief =
             buffer->geometry.items[geometry].heights.cell > 0.0f && geometry < relief ? geometry : relief;
@@ -162,8 +175,14 @@ vtResult vtSceneBuffer_Place(vtSceneBuffer* buffer, const vtGL* gl, vtError* err
         result = vtObjectTree_Upload(&buffer->tree, gl, buffer->objects, buffer->objectCount, error);
     }
     vtFree(placed);
-    if (result == vt_ok && buffer->glassCount < buffer->objectCount && buffer->images.name == 0) {
+    if (result == vt_ok && (buffer->hasLooks || buffer->glassCount < buffer->objectCount) &&
+        buffer->images.texture.name == 0) {
         result = vtImageArray_Upload(&buffer->images, gl, &(vtScene){0}, error);
+    }
+    if (result == vt_ok && buffer->hasLooks) {
+        result =
+            vtMaterialTable_Upload(&buffer->looks, gl, buffer->objects, buffer->objectCount, buffer->lights,
+                                   buffer->lightCount, &buffer->images, buffer->origin, error);
     }
     buffer->isStale = result != vt_ok;
     return result;
@@ -182,10 +201,11 @@ static void findUses(const vtScene* scene, vtGeometryUse* uses)
 {
     for (uint32_t i = 0; i < scene->objectCount; ++i) {
         const vtObject* object = &scene->objects[i];
-        const bool opaque = scene->materials[object->material].opaque;
+        const vtMaterial* material = &scene->materials[object->material];
         uses[object->mesh].any = true;
-        uses[object->mesh].glass |= !opaque;
-        uses[object->mesh].attributes |= opaque;
+        uses[object->mesh].glass |= !material->opaque && !material->thin;
+        uses[object->mesh].attributes |=
+            material->opaque || !vtMaterial_IsPlain(material, scene->meshes[object->mesh].colors != NULL);
     }
     const uint32_t relief = reliefOf(scene);
     if (relief != VT_NO_GEOMETRY) {
@@ -197,7 +217,6 @@ static vtResult addScene(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* s
 {
     vtGeometryUse* uses = vtAllocateZeroed(scene->meshCount, sizeof *uses);
     vtResult result = vt_ok;
-    bool opaque = false;
     if (uses == NULL || !reserveInstances(buffer, scene->objectCount)) {
         result = vtFail(error, vt_errorMemory, "scene: out of memory for %u objects", scene->objectCount);
     }
@@ -208,10 +227,18 @@ static vtResult addScene(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* s
     for (uint32_t i = 0; i < scene->objectCount && result == vt_ok; ++i) {
         const vtMaterial* material = &scene->materials[scene->objects[i].material];
         result = vtSceneBuffer_AddInstance(buffer, &scene->objects[i], material, error);
-        opaque = opaque || material->opaque;
     }
-    if (result == vt_ok && opaque && scene->imageCount > 0) {
+    if (result == vt_ok && scene->imageCount > 0) {
         result = vtImageArray_Upload(&buffer->images, gl, scene, error);
+    }
+    if (result == vt_ok && scene->lightCount > 0) {
+        buffer->lights = vtAllocate(scene->lightCount, sizeof *buffer->lights);
+        buffer->lightCount = buffer->lights != NULL ? scene->lightCount : 0;
+        if (buffer->lights == NULL) {
+            result = vtFail(error, vt_errorMemory, "scene: out of memory for %u lights", scene->lightCount);
+        } else {
+            memcpy(buffer->lights, scene->lights, scene->lightCount * sizeof *buffer->lights);
+        }
     }
     vtFree(uses);
     return result;
@@ -244,7 +271,9 @@ void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl)
     vtFree(buffer->fresh);
     vtFree(buffer->order);
     vtTexture_Destroy(&buffer->tree, gl);
-    vtTexture_Destroy(&buffer->images, gl);
+    vtImageArray_Destroy(&buffer->images, gl);
+    vtFree(buffer->lights);
+    vtTexture_Destroy(&buffer->looks, gl);
     vtTexture_Destroy(&buffer->table, gl);
     *buffer = (vtSceneBuffer){.relief = VT_NO_GEOMETRY};
 }
@@ -300,7 +329,7 @@ void vtSceneBuffer_Draw(const vtSceneBuffer* buffer, const vtGL* gl, const vtPro
 
 size_t vtSceneBuffer_TextureBytes(const vtSceneBuffer* buffer)
 {
-    return vtTexture_Bytes(&buffer->geometry.attributes) + vtTexture_Bytes(&buffer->images) +
-           vtTexture_Bytes(&buffer->table) + vtTexture_Bytes(&buffer->tree) +
-           vtGeometryStore_HeightBytes(&buffer->geometry);
+    return vtTexture_Bytes(&buffer->geometry.attributes) + vtTexture_Bytes(&buffer->images.texture) +
+           vtTexture_Bytes(&buffer->looks) + vtTexture_Bytes(&buffer->table) +
+           vtTexture_Bytes(&buffer->tree) + vtGeometryStore_HeightBytes(&buffer->geometry);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "gl/geometry.h"
+#include "gl/image_array.h"
 #include "gl/object_buffer.h"
 #include "gl/program.h"
 
@@ -17,7 +18,9 @@
 
 typedef struct vtSceneBuffer {
     vtGeometryStore geometry;
-    vtTexture images; ///< of opaque materials, gl/image_array.h
+    vtImageArray images;
+    vtLight* lights;
+    uint32_t lightCount;
     /// The instances as the caller gave them, without gaps, as a scene of meshes that are in geometry.shapes;
     /// a material each.
     vtObject* instances;
@@ -34,6 +37,8 @@ typedef struct vtSceneBuffer {
     uint32_t
         relief; ///< geometry that is drawn by its heights, the first of glass; VT_NO_GEOMETRY: there is none
     vtTexture tree;          ///< RGBA32UI, object_tree.h
+    bool hasLooks;           ///< some material is not plain, or there are lights: shaders read the next
+    vtTexture looks;         ///< RGBA32UI, material_table.h
     vtTexture table;         ///< RGBA32UI: VT_OBJECT_...
     uint32_t *words, *fresh; ///< of the table: as it was uploaded last, and room for the next
 } vtSceneBuffer;
@@ -63,7 +68,7 @@ void vtSceneBuffer_SortGlass(vtSceneBuffer* buffer, vtVec3 eye);
 /// Whether the object is the relief that is drawn by its heights.
 static inline bool vtSceneBuffer_HasHeights(const vtSceneBuffer* buffer, uint32_t object)
 {
-    return object < buffer->glassCount && buffer->objects[object].geometry == buffer->relief;
+    return buffer->objects[object].geometry == buffer->relief;
 }
 
 /// The relief's heights; NULL without one.

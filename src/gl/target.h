@@ -39,6 +39,7 @@ typedef enum vtSampler {
     vt_samplerObjectTree,
     vt_samplerAttributes,
     vt_samplerImages,
+    vt_samplerMaterials,
     vt_samplerHeights,
     vt_samplerHeightRanges,
     vt_samplerEnvironment,

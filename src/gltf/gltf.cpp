@@ -73,16 +73,23 @@ static bool splitFile(Loader& loader, Bytes* text, Bytes* bin)
     return true;
 }
 
-static vtResult load(const vtModelDef* def, vtScene* scene, vtError* error)
+vtResult load(Loader& loader)
 {
-    Loader loader = {def, scene, error};
     Bytes text, bin;
     std::vector<uint32_t> materialOf;
-    return splitFile(loader, &text, &bin) && parseDocument(loader, text, bin) && collectNodes(loader) &&
+    return splitFile(loader, &text, &bin) && parseDocument(loader, text, bin) &&
+                   findVariant(loader, &loader.variant) && collectNodes(loader) &&
                    makeMaterials(loader, &materialOf) && makeMeshes(loader, materialOf) &&
-                   makeObjects(loader) && makeCameras(loader)
-               ? vtSucceed(error)
+                   guessSolid(loader) && makeObjects(loader) && makeCameras(loader) && makeLights(loader) &&
+                   makeNotes(loader)
+               ? vtSucceed(loader.error)
                : loader.result;
+}
+
+static vtResult loadScene(const vtModelDef* def, vtScene* scene, vtError* error)
+{
+    Loader loader = {def, scene, error};
+    return load(loader);
 }
 
 /// Nothing that is thrown leaves it.
@@ -91,14 +98,14 @@ static vtResult loadSafely(const vtModelDef* def, vtScene* scene, vtError* error
 #ifdef __cpp_exceptions
     const char* name = def->name != nullptr ? def->name : "";
     try {
-        return load(def, scene, error);
+        return loadScene(def, scene, error);
     } catch (const std::bad_alloc&) {
         return vtFail(error, vt_errorMemory, "model '%.200s': out of memory; simplify it", name);
     } catch (...) {
         return vtFail(error, vt_errorFormat, "model '%.200s': it cannot be read" GLTF_DAMAGED, name);
     }
 #else
-    return load(def, scene, error);
+    return loadScene(def, scene, error);
 #endif
 }
 

@@ -6,6 +6,7 @@
 extern "C" {
 #include "base/error.h"
 #include "base/memory.h"
+#include "gltf/features.h"
 }
 
 // The same wherever tinygltf's types are seen; gltf_document.cpp alone holds its code.
@@ -21,6 +22,8 @@ extern "C" {
 #include <tiny_gltf.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 /// How sentences end about what only whoever made the file can mend.
 #define GLTF_DAMAGED "; the file is damaged, export it again"
@@ -33,11 +36,12 @@ struct Bytes {
     size_t size = 0;
 };
 
-/// An accessor whose every element is known to lie inside its buffer.
+/// An accessor whose every element is known to lie inside its bytes.
 struct Stream {
     const uint8_t* data = nullptr;
     size_t count = 0, stride = 0;
-    int componentType = 0;
+    int componentType = 0, components = 0;
+    bool normalized = false; // whole numbers stand for 0 to 1, or -1 to 1
 };
 
 /// Column-major 4 x 4, as glTF has it.
@@ -54,19 +58,62 @@ struct Free {
 };
 template <typename T> using Block = std::unique_ptr<T[], Free>;
 
+/// Streams of attributes that were unpacked, by their names.
+using Streams = std::vector<std::pair<std::string, Stream>>;
+
+/// What a morph target adds to each vertex, times its weight.
+struct Target {
+    double weight;
+    Stream positions, normals;
+};
+
+/// Joints of each vertex and their weights, four of each.
+struct Influence {
+    Stream joints, weights;
+};
+
 /// A checked primitive with triangles.
 struct Part {
-    Stream positions, normals, texcoords, colors, indices; // a stream without data: the primitive has none
-    int mode = TINYGLTF_MODE_TRIANGLES;                    // or a strip or a fan
+    // A stream without data: the primitive has none.
+    Stream positions, normals, texcoords, texcoords1, tangents, colors, indices;
+    std::vector<Target> targets = {}; // of weights other than 0
+    std::vector<Influence> influences = {};
+    int mode = TINYGLTF_MODE_TRIANGLES; // or a strip or a fan
     size_t triangleCount = 0;
     int material = -1; // of the file; -1: glTF's default
 };
 
-/// A mesh of the file.
+/// A mesh of the file in one shape: nodes may give it other weights of its morph targets, or a skin.
 struct Source {
-    bool opened = false;
+    int mesh;
+    std::vector<double> weights = {};
+    int skin = -1;
+    std::vector<Matrix> joints = {}; // of the skin: from the mesh to the world
     std::vector<Part> parts = {};
     std::vector<uint32_t> meshes = {}, materials = {}; // what became of it in the scene, as many of each
+    std::vector<uint8_t> bounds = {};                  // 1: those that bound one body together
+};
+
+/// A picture of a material.
+struct TextureUse {
+    vtMapUse use;
+    int texture, texCoord;
+    float rows[2][3] = {{1, 0, 0}, {0, 1, 0}}; // as vtMap's
+};
+
+/// A skin of the file.
+struct Skin {
+    std::vector<int> joints = {};
+    int inverseBindMatrices = -1;
+};
+
+/// What an extension says of a compressed buffer view.
+struct Compressed {
+    std::string extension = {}; // empty: it is not compressed
+    int buffer = 0;
+    size_t byteOffset = 0, byteLength = 0, byteStride = 0, count = 0;
+    std::string mode = {}, filter = {};
+    Bytes decoded = {}; // once it is needed
 };
 
 /// A picture of the file: at an address, or in a buffer view.
@@ -76,11 +123,14 @@ struct Picture {
     int image = -1; // in the scene
 };
 
-/// A mesh or a camera of the file where a node puts it.
+/// A source or a camera of the file where a node puts it.
 struct Placement {
     int node, what;
     Matrix toWorld;
 };
+
+/// Bytes that one model's files of their own, and what is unpacked, may take together.
+const uint64_t mostExternalBytes = (uint64_t)1 << 31;
 
 /// What one call of vtLoadScene has so far. A function that returns false has called `fail`.
 struct Loader {
@@ -90,14 +140,34 @@ struct Loader {
     vtResult result = vt_ok;
     tinygltf::Model model = {}; // without its buffers and images, which are these:
     std::vector<Bytes> buffers = {};
-    std::vector<std::vector<uint8_t>> ownedBuffers = {}; // of those that `def` does not hold
+    std::vector<std::vector<uint8_t>> ownedBuffers = {}; // bytes that `def` does not hold
+    uint64_t budget = mostExternalBytes;                 // what is left of it
+    std::vector<Compressed> compressed = {};             // as many as model.bufferViews, or none
+    std::vector<Skin> skins = {};
     std::vector<Picture> pictures = {};
-    std::vector<Source> sources = {}; // as many as model.meshes
-    std::vector<int> reached = {};    // sources with triangles, in the order in which nodes name them
-    std::vector<Placement> objects = {}, cameras = {};
+    std::vector<Source> sources = {};
+    std::vector<std::vector<int>> sourcesOf = {}; // each mesh of the file
+    std::vector<int> reached = {}; // sources with triangles, in the order in which nodes name them
+    std::vector<Placement> objects = {}, cameras = {}, lights = {};
+    size_t animationCount = 0, lightCount = 0;
+    std::vector<std::string> variants = {}, used = {}, required = {}; // the latter: extensions
+    std::vector<std::string> ignored = {};                            // what noteIgnored was told
+    std::string notes = {};                                           // what note was told, a line each
+    int variant = -1;                                                 // of `variants`
+    int primitivesWithoutTriangles = 0, turnedMeshes = 0;
 
     /// Sets result and error; returns false.
     bool fail(vtResult why, const char* format, ...) VT_PRINTF(3, 4);
+
+    /// Tells what is left out of the picture: "normal maps of 2 materials". All that a file leaves out makes
+    /// one line.
+    void noteIgnored(const char* format, ...) VT_PRINTF(2, 3);
+
+    /// Tells what else is worth knowing, a line by itself: "2 meshes were inside out".
+    void note(const char* format, ...) VT_PRINTF(2, 3);
+
+    /// Takes bytes off the budget, or fails where it is used up.
+    bool spend(uint64_t bytes, const std::string& what);
 
     /// Is `index` one of `count`? Else fails.
     bool has(const char* what, int index, size_t count);
@@ -120,24 +190,74 @@ std::string label(int index, const std::string& name);
 uint32_t readU32(const uint8_t* p);
 uint32_t readIndex(const Stream& indices, size_t i);
 
-/// Component k of element i of floats, or of unsigned 8 or 16-bit numbers that stand for 0 to 1.
+/// Component k of element i, of any type.
 float readNumber(const Stream& stream, size_t i, size_t k);
+
+/// "2 materials", "1 material".
+std::string counted(size_t count, const char* what);
+
+/// Column-major product.
+Matrix multiply(const Matrix& a, const Matrix& b);
+
+/// From translation, rotation (a quaternion, of any length but 0) and scale.
+Matrix composeMatrix(const double translation[3], const double rotation[4], const double scale[3]);
 
 /// Fills model, buffers and pictures. `bin` is the container's BIN chunk, if any.
 bool parseDocument(Loader& loader, Bytes text, Bytes bin);
+
+/// Reads the file at a uri that is none of data; `what` is a buffer or a picture.
+bool readExternal(Loader& loader, const char* what, const std::string& uri, std::vector<uint8_t>* bytes);
+
+/// The bytes of a data URI.
+bool decodeDataUri(const std::string& uri, std::vector<uint8_t>* bytes);
 
 /// Opens the first `length` bytes of a buffer view of the file, or all; `what` reads them.
 const uint64_t wholeView = UINT64_MAX;
 bool openView(Loader& loader, const std::string& what, int index, uint64_t length, Bytes* bytes);
 
+/// Opens an accessor of the file, of any type; `what` is told of in sentences.
+bool openAccessor(Loader& loader, int index, Stream* stream);
+
+/// Unpacks a buffer view (EXT_meshopt_compression) into *decoded.
+bool decodeView(Loader& loader, const std::string& what, const Compressed& view, Bytes packed,
+                std::vector<uint8_t>* decoded);
+
+/// Unpacks a primitive (KHR_draco_mesh_compression): streams for its attributes, and "" for the indices.
+bool decodePrimitive(Loader& loader, const tinygltf::Primitive& primitive, Streams* streams);
+
 /// The bytes of a picture's file: its own, or `contents`, which is filled then.
 bool openPicture(Loader& loader, int index, std::vector<uint8_t>* contents, Bytes* bytes);
+
+/// The number of a texture's picture: that of an extension which is drawn (features.h), else the texture's
+/// own.
+bool findTextureSource(Loader& loader, int index, int* source);
 
 /// Fills sources, reached, objects and cameras from the scene's nodes.
 bool collectNodes(Loader& loader);
 
-/// Checks a primitive and adds it to the parts, unless it has no triangles.
-bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, std::vector<Part>* parts);
+/// The transforms of an EXT_mesh_gpu_instancing; *found is false where the node has none.
+bool readInstances(Loader& loader, int node, bool* found, std::vector<Matrix>* instances);
+
+/// The number of the variant that is asked for; -1: none is. Fails where the file has none of that name.
+bool findVariant(Loader& loader, int* variant);
+
+/// The material of a primitive in that variant.
+int materialOf(const tinygltf::Primitive& primitive, int variant);
+
+/// Checks a primitive and adds it to the parts of the source, unless it has no triangles.
+bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, Source* source);
+
+/// Moves a part's vertices as morph targets and skin say; normals may be null.
+void pose(const Source& source, const Part& part, float* positions, float* normals);
+
+/// The pictures of a material that are drawn.
+std::vector<TextureUse> texturesOf(const tinygltf::Material& material);
+
+/// The sets of texture coordinates that they lie by, two at most: a mesh keeps no more.
+std::vector<int> texcoordSetsOf(const tinygltf::Material& material);
+
+/// Fills the material's maps, and the scene's images with their pictures.
+bool openMaps(Loader& loader, const tinygltf::Material& given, vtMaterial* material);
 
 /// Fills the scene's materials and images; materialOf[i + 1] is the scene's for the file's material i.
 bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf);
@@ -145,8 +265,30 @@ bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf);
 /// Fills the scene's meshes: one for the parts of a source that have the same material.
 bool makeMeshes(Loader& loader, const std::vector<uint32_t>& materialOf);
 
+/// Fails for that many objects.
+bool failObjects(Loader& loader, size_t count);
+
+/// Makes solid what by the standard are thin walls, where the file is nothing but closed bodies of such
+/// glass: its author meant glass, and most exporters leave the volume out.
+bool guessSolid(Loader& loader);
+
 /// Fill the scene's objects and cameras.
 bool makeObjects(Loader& loader);
 bool makeCameras(Loader& loader);
+
+/// Fills the scene's lights (KHR_lights_punctual).
+bool makeLights(Loader& loader);
+
+/// The materials of the file that the scene uses, each once; -1: glTF's default.
+std::vector<int> listMaterials(const Loader& loader);
+
+/// Has the material the extension of that name?
+bool usesFeature(const tinygltf::Material& material, const vtGltfFeature& feature);
+
+/// Fills the scene's notes.
+bool makeNotes(Loader& loader);
+
+/// Loads as vtLoadScene does.
+vtResult load(Loader& loader);
 
 } // namespace vtGltf

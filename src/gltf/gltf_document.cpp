@@ -38,151 +38,22 @@ struct stringstream {
 constexpr char endl[] = "\n"; // the real one is a stream's
 } // namespace vtTinygltf::std
 
-#ifdef __cpp_exceptions
-namespace vtNlohmann::std
-{
-using namespace ::std;
+#include "gltf/gltf_json.h"
 
-template <typename Json> bool hasChildren(const Json& value)
-{
-    return value.is_structured() && !value.empty();
-}
-
-template <typename Json> void eraseLast(Json& value)
-{
-    auto last = value.end();
-    value.erase(--last);
-}
-
-/// Destroys all below a value without a call to itself and without memory: it goes down by the last child, in
-/// whose place it keeps what it came from.
-template <typename Json> void dissolve(Json& value)
-{
-    Json above, here = ::std::move(value);
-    while (hasChildren(here) || !above.is_null()) {
-        if (!hasChildren(here)) {
-            here = ::std::move(above);
-            above = ::std::move(here.back());
-            eraseLast(here);
-        } else if (hasChildren(here.back())) {
-            Json below = ::std::move(here.back());
-            here.back() = ::std::move(above);
-            above = ::std::move(here);
-            here = ::std::move(below);
-        } else {
-            eraseLast(here);
-        }
-    }
-}
-
-/// What a JSON value's destructor, which must not fail, moves its children into, so that it need not call
-/// itself. Where memory is out they are dissolved.
-template <typename T> struct Yielding : ::std::vector<T> {
-    void reserve(size_t)
-    {
-    }
-    void push_back(T&& value)
-    {
-        try {
-            ::std::vector<T>::push_back(::std::move(value));
-        } catch (const bad_alloc&) {
-            dissolve(value);
-        }
-    }
-};
-
-/// nlohmann's vectors: only that one is of values of a class and names no allocator.
-template <typename T, typename... Allocator> struct VectorOf {
-    using type = ::std::vector<T, Allocator...>;
-};
-template <typename T> struct VectorOf<T> {
-    static constexpr bool yields = is_class_v<T> && !is_same_v<T, string>;
-    using type = conditional_t<yields, Yielding<T>, ::std::vector<T>>;
-};
-template <typename T, typename... Allocator> using vector = typename VectorOf<T, Allocator...>::type;
-} // namespace vtNlohmann::std
-#endif
-
+// tinygltf is given a document instead of its text: where it would parse that, it takes the document (see
+// parseStructs). And no JSON is written: what it keeps as text only where it is told to, it is not told to.
 #define TINYGLTF_IMPLEMENTATION
-#include "gltf/gltf.h"
+#define parse(document, ...) value_type(::std::move(*(json*)document))
+#define dump(...) type_name()
+#include <tiny_gltf.h>
+#undef parse
+#undef dump
 
 #include <cmath>
-#include <cstdlib>
+#include <cstring>
 
 namespace vtGltf
 {
-
-using Json = nlohmann::json;
-
-static const int maxJsonDepth = 32; // a glTF file needs about 8; tinygltf recurses
-
-static bool isOneOf(const std::string& word, std::initializer_list<const char*> words)
-{
-    for (const char* candidate : words) {
-        if (word == candidate) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool isWanted(const std::string& key, int depth)
-{
-    return depth == 0 ? isOneOf(key, {"asset", "buffers", "bufferViews", "accessors", "meshes", "nodes",
-                                      "scenes", "scene", "materials", "textures", "images", "cameras",
-                                      "extensionsUsed", "extensionsRequired"})
-                      : !isOneOf(key, {"extras", "min", "max", "targets", "weights"});
-}
-
-static bool isAttribute(const std::string& key)
-{
-    return isOneOf(key, {"POSITION", "NORMAL"}) || key.compare(0, 9, "TEXCOORD_") == 0 ||
-           key.compare(0, 6, "COLOR_") == 0;
-}
-
-/// Indices and offsets must fit an int. 12.0 is as good as 12 in JSON, but tinygltf would ignore it; and it
-/// would wrap other large whole numbers round.
-static bool tidyValue(Loader& loader, const std::string& key, Json& value)
-{
-    if (value.is_number_float()) {
-        const double number = value.get<double>();
-        if (number == std::floor(number) && std::fabs(number) <= INT32_MAX) {
-            value = number < 0 ? Json((int64_t)number) : Json((uint64_t)number);
-        }
-    } else if (value.is_number() && std::fabs(value.get<double>()) > INT32_MAX) {
-        value = value.get<double>();
-    }
-    if ((isAttribute(key) || isOneOf(key, {"bufferView", "buffer", "byteOffset", "byteLength", "byteStride",
-                                           "componentType", "count", "mesh", "material", "mode", "indices",
-                                           "scene", "camera", "index", "texCoord", "source"})) &&
-        !(value.is_number_unsigned() && value.get<uint64_t>() <= INT32_MAX)) {
-        return loader.fail(vt_errorFormat,
-                           "its JSON has a '%s' that is not a whole number from 0 to %d" GLTF_DAMAGED,
-                           key.c_str(), INT32_MAX);
-    }
-    return true;
-}
-
-/// Drops what the loader does not need of an object or array; refuses what tinygltf would misread.
-static bool tidy(Loader& loader, Json& parent, int depth)
-{
-    if (depth > maxJsonDepth) {
-        return loader.fail(vt_errorFormat, "its JSON is nested deeper than %d levels" GLTF_DAMAGED,
-                           maxJsonDepth);
-    }
-    for (auto at = parent.begin(); at != parent.end();) {
-        const std::string key = parent.is_object() ? at.key() : "";
-        if (parent.is_object() && !isWanted(key, depth)) {
-            at = parent.erase(at);
-            continue;
-        }
-        if (!(at->is_structured() ? tidy(loader, *at, depth + 1) : tidyValue(loader, key, *at))) {
-            return false;
-        }
-        ++at;
-    }
-    return true;
-}
 
 static bool parseJson(Loader& loader, Bytes text, Json* document)
 {
@@ -195,17 +66,17 @@ static bool parseJson(Loader& loader, Bytes text, Json* document)
     if (!document->is_object()) {
         return loader.fail(vt_errorFormat, "its JSON is broken or cut off" GLTF_DAMAGED);
     }
-    return tidy(loader, *document, 0);
+    return true;
 }
 
-/// Fills loader.model from the tidied JSON; buffers have been taken out of it.
-static bool parseStructs(Loader& loader, const Json& document)
+/// Fills loader.model from the tidied JSON, which is used up; buffers have been taken out of it.
+static bool parseStructs(Loader& loader, Json& document)
 {
-    const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const unsigned int longEnough = 4; // for the text that it is not
     tinygltf::TinyGLTF parser;
     std::string message, warning;
-    const bool parsed = parser.LoadASCIIFromString(&loader.model, &message, &warning, text.data(),
-                                                   (unsigned int)text.size(), "");
+    const bool parsed =
+        parser.LoadASCIIFromString(&loader.model, &message, &warning, (const char*)&document, longEnough, "");
     // tinygltf drops a broken primitive, tells so, and goes on: half a model is not what was asked for.
     if (!parsed || !message.empty()) {
         return loader.fail(vt_errorFormat, "its JSON is not glTF (%s)" GLTF_DAMAGED,
@@ -216,66 +87,79 @@ static bool parseStructs(Loader& loader, const Json& document)
                            "it is glTF version '%s' but only 2.0 is supported; export it as glTF 2.0",
                            quotable(loader.model.asset.version).c_str());
     }
-    for (const std::string& extension : loader.model.extensionsRequired) {
-        // Looks, of which what is known is drawn; all else may change where the triangles are.
-        const bool harmless = extension.rfind("KHR_materials_", 0) == 0 ||
-                              extension.rfind("KHR_texture_", 0) == 0 ||
-                              extension.rfind("EXT_texture_", 0) == 0 || extension == "KHR_lights_punctual";
-        if (!harmless) {
-            return loader.fail(vt_errorFormat,
-                               "it requires the extension %s, which is not supported; export it without",
-                               quotable(extension).c_str());
+    return true;
+}
+
+/// What extensionsRequired or extensionsUsed has.
+static std::vector<std::string> listTexts(const Json& document, const char* key)
+{
+    std::vector<std::string> texts;
+    const auto list = document.find(key);
+    for (size_t i = 0; list != document.end() && list->is_array() && i < list->size(); ++i) {
+        if ((*list)[i].is_string()) {
+            texts.push_back((*list)[i].get<std::string>());
+        }
+    }
+    return texts;
+}
+
+/// Can this build draw what requires these? An extension may lie where nothing is read, so this comes first.
+static bool checkRequired(Loader& loader)
+{
+    for (const std::string& extension : loader.required) {
+        const vtGltfFeature* feature = vtFindGltfExtension(extension.c_str());
+        if (feature != nullptr && feature->needs != nullptr) {
+            return loader.fail(
+                vt_errorFormat,
+                "it requires the extension %s, which this build cannot read without %s; export it without",
+                extension.c_str(), feature->needs);
+        }
+        if (feature == nullptr) {
+            std::string known;
+            for (int i = 0; (feature = vtGltfFeature_At(i)) != nullptr; ++i) {
+                if (feature->isExtension && feature->needs == nullptr) {
+                    known += (known.empty() ? "" : " ") + std::string(feature->name);
+                }
+            }
+            return loader.fail(
+                vt_errorFormat,
+                "it requires the extension %s, which is not supported; export it without. Supported: %s",
+                quotable(extension).c_str(), known.c_str());
         }
     }
     return true;
 }
 
-static std::string decodePercents(const std::string& uri)
+/// Elements of an array, or none.
+static size_t countIn(const Json& in, const char* key)
 {
-    std::string path;
-    for (size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && i + 2 < uri.size() && isxdigit((unsigned char)uri[i + 1]) &&
-            isxdigit((unsigned char)uri[i + 2])) {
-            path += (char)strtol(uri.substr(i + 1, 2).c_str(), nullptr, 16);
-            i += 2;
-        } else {
-            path += uri[i];
-        }
-    }
-    return path;
+    return in.is_object() && in.contains(key) && in[key].is_array() ? in[key].size() : 0;
 }
 
-/// `what` is a buffer or a picture.
-static bool readExternal(Loader& loader, const char* what, const std::string& uri,
-                         std::vector<uint8_t>* bytes)
+/// The same of an extension of the whole file.
+static size_t countIn(const Json& document, const char* extension, const char* key)
 {
-    const vtModelDef& def = *loader.def;
-    std::string path = decodePercents(uri);
-    if (def.readFile == nullptr) {
-        return loader.fail(
-            vt_errorFile,
-            "its %s '%s' is a file of its own, which cannot be read here; export it as one .glb", what,
-            quotable(path).c_str());
+    const bool has = document.contains("extensions") && document["extensions"].is_object() &&
+                     document["extensions"].contains(extension);
+    return has ? countIn(document["extensions"][extension], key) : 0;
+}
+
+/// Notes what is dropped unseen.
+static void countUnread(Loader& loader, const Json& document)
+{
+    loader.animationCount = countIn(document, "animations");
+    loader.lightCount = countIn(document, "KHR_lights_punctual", "lights");
+    for (size_t i = 0; i < countIn(document, "KHR_materials_variants", "variants"); ++i) {
+        const Json& variant = document["extensions"]["KHR_materials_variants"]["variants"][i];
+        const bool named = variant.is_object() && variant.contains("name") && variant["name"].is_string();
+        loader.variants.push_back(named ? variant["name"].get<std::string>() : "");
     }
-    const std::string directory = def.directory != nullptr ? def.directory : "";
-    path = directory + (directory.empty() || directory.back() == '/' ? "" : "/") + path;
-    uint8_t* contents = nullptr;
-    size_t size = 0;
-    if (!def.readFile(path.c_str(), &contents, &size, def.userData)) {
-        return loader.fail(vt_errorFile, "its %s '%s' cannot be read; put that file beside the model", what,
-                           quotable(path).c_str());
-    }
-    const Block<uint8_t> owned(contents);
-    if (size > 0) {
-        bytes->assign(contents, contents + size);
-    }
-    return true;
 }
 
 static bool loadBuffer(Loader& loader, const Json& entry, size_t index, Bytes bin)
 {
     const auto length = entry.find("byteLength"), uri = entry.find("uri");
-    if (!entry.is_object() || length == entry.end() || !length->is_number_unsigned()) {
+    if (length == entry.end()) {
         return loader.fail(vt_errorFormat, "buffer %zu has no byteLength" GLTF_DAMAGED, index);
     }
     const size_t needed = length->get<size_t>();
@@ -287,13 +171,12 @@ static bool loadBuffer(Loader& loader, const Json& entry, size_t index, Bytes bi
         }
         const std::string address = uri->get<std::string>();
         std::vector<uint8_t> contents;
-        std::string mimeType;
         if (address.compare(0, 5, "data:") != 0) {
             name += " ('" + quotable(address) + "')";
             if (!readExternal(loader, "buffer", address, &contents)) {
                 return false;
             }
-        } else if (needed > 0 && !tinygltf::DecodeDataURI(&contents, mimeType, address, 0, false)) {
+        } else if (!decodeDataUri(address, &contents)) {
             return loader.fail(vt_errorFormat,
                                "the data URI of buffer %zu cannot be decoded; export it as .glb", index);
         }
@@ -311,40 +194,72 @@ static bool loadBuffer(Loader& loader, const Json& entry, size_t index, Bytes bi
 /// Notes where the pictures are. What is wrong with one matters only if a material uses it.
 static void listPictures(Loader& loader, const Json& images)
 {
-    for (size_t i = 0; images.is_array() && i < images.size(); ++i) {
+    for (const Json& image : images) {
         Picture picture;
-        if (images[i].is_object()) {
-            const auto name = images[i].find("name"), uri = images[i].find("uri"),
-                       view = images[i].find("bufferView"), end = images[i].end();
-            picture.name = name != end && name->is_string() ? name->get<std::string>() : "";
-            picture.uri = uri != end && uri->is_string() ? uri->get<std::string>() : "";
-            picture.bufferView = view != end && view->is_number_unsigned() ? view->get<int>() : -1;
-        }
+        const auto name = image.find("name"), uri = image.find("uri"), view = image.find("bufferView"),
+                   end = image.end();
+        picture.name = name != end && name->is_string() ? name->get<std::string>() : "";
+        picture.uri = uri != end && uri->is_string() ? uri->get<std::string>() : "";
+        picture.bufferView = view != end ? view->get<int>() : -1;
         loader.pictures.push_back(std::move(picture));
     }
 }
 
-bool openPicture(Loader& loader, int index, std::vector<uint8_t>* contents, Bytes* bytes)
+/// tinygltf asks for matrices that a skin need not have.
+static void listSkins(Loader& loader, const Json& skins)
 {
-    const Picture& picture = loader.pictures[(size_t)index];
-    const std::string name = "image " + label(index, picture.name);
-    std::string mimeType;
-    if (picture.uri.empty()) {
-        return picture.bufferView >= 0
-                   ? openView(loader, name, picture.bufferView, wholeView, bytes)
-                   : loader.fail(vt_errorFormat, "%s has neither a uri nor a buffer view" GLTF_DAMAGED,
-                                 name.c_str());
-    }
-    if (picture.uri.compare(0, 5, "data:") != 0) {
-        if (!readExternal(loader, "picture", picture.uri, contents)) {
-            return false;
+    for (const Json& entry : skins) {
+        Skin skin;
+        const auto joints = entry.find("joints"), inverse = entry.find("inverseBindMatrices");
+        for (size_t i = 0; joints != entry.end() && i < joints->size(); ++i) {
+            skin.joints.push_back((*joints)[i].get<int>());
         }
-    } else if (!tinygltf::DecodeDataURI(contents, mimeType, picture.uri, 0, false)) {
-        return loader.fail(vt_errorFormat, "the data URI of %s cannot be decoded; export it as .glb",
-                           name.c_str());
+        skin.inverseBindMatrices = inverse != entry.end() ? inverse->get<int>() : -1;
+        loader.skins.push_back(std::move(skin));
     }
-    *bytes = {contents->data(), contents->size()};
-    return true;
+}
+
+/// What is packed of a buffer view, or nothing.
+static Compressed readCompressed(const Json& view)
+{
+    Compressed packed;
+    const auto extensions = view.find("extensions");
+    if (extensions == view.end() || extensions->empty()) {
+        return packed;
+    }
+    packed.extension = extensions->begin().key();
+#if VT_WITH_FILES
+    const Json& about = *extensions->begin();
+    const auto number = [&](const char* key) { return about.contains(key) ? about[key].get<size_t>() : 0; };
+    const auto text = [&](const char* key) {
+        return about.contains(key) && about[key].is_string() ? about[key].get<std::string>() : "";
+    };
+    packed.buffer = (int)number("buffer");
+    packed.byteOffset = number("byteOffset");
+    packed.byteLength = number("byteLength");
+    packed.byteStride = number("byteStride");
+    packed.count = number("count");
+    packed.mode = text("mode");
+    packed.filter = text("filter");
+#endif
+    return packed;
+}
+
+/// tinygltf wants a buffer view for indices, which they need not have: they become the attribute "".
+static void moveIndices(Json& document)
+{
+    if (!document.contains("meshes")) {
+        return;
+    }
+    for (Json& mesh : document["meshes"]) {
+        for (size_t i = 0; mesh.contains("primitives") && i < mesh["primitives"].size(); ++i) {
+            Json& primitive = mesh["primitives"][i];
+            if (primitive.contains("indices") && primitive.contains("attributes")) {
+                primitive["attributes"][""] = primitive["indices"];
+                primitive.erase("indices");
+            }
+        }
+    }
 }
 
 bool parseDocument(Loader& loader, Bytes text, Bytes bin)
@@ -353,20 +268,39 @@ bool parseDocument(Loader& loader, Bytes text, Bytes bin)
     if (!parseJson(loader, text, &document)) {
         return false;
     }
-    // Loaded below, so that tinygltf meets no file and no data. Null where there are none.
+    loader.used = listTexts(document, "extensionsUsed");
+    loader.required = listTexts(document, "extensionsRequired");
+    if (!checkRequired(loader)) {
+        return false;
+    }
+    countUnread(loader, document);
+    if (!tidyDocument(loader, document)) {
+        return false;
+    }
+    // Read below, so that tinygltf meets no file and no data. Null where there are none.
     const Json buffers = std::move(document["buffers"]);
     const Json images = std::move(document["images"]);
-    document.erase("buffers");
-    document.erase("images");
+    const Json skins = std::move(document["skins"]);
+    for (const char* key : {"buffers", "images", "skins"}) {
+        document.erase(key);
+    }
+    if (document.contains("bufferViews")) {
+        for (Json& view : document["bufferViews"]) {
+            loader.compressed.push_back(readCompressed(view));
+            view.erase("extensions");
+        }
+    }
+    moveIndices(document);
     if (!parseStructs(loader, document)) {
         return false;
     }
-    for (size_t i = 0; buffers.is_array() && i < buffers.size(); ++i) {
+    for (size_t i = 0; i < buffers.size(); ++i) {
         if (!loadBuffer(loader, buffers[i], i, bin)) {
             return false;
         }
     }
     listPictures(loader, images);
+    listSkins(loader, skins);
     return true;
 }
 

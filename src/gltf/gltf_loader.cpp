@@ -1,21 +1,57 @@
-// What all steps use: sentences, and numbers out of bytes.
+// What all steps use: sentences, notes, and numbers out of bytes.
 #include "gltf/gltf.h"
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 
 namespace vtGltf
 {
 
+static std::string print(const char* format, va_list arguments)
+{
+    char text[800];
+    vsnprintf(text, sizeof text, format, arguments);
+    return text;
+}
+
 bool Loader::fail(vtResult why, const char* format, ...)
 {
-    char reason[512];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(reason, sizeof reason, format, arguments);
+    const std::string reason = print(format, arguments);
     va_end(arguments);
-    result = vtFail(error, why, "model '%.200s': %s", def->name != nullptr ? def->name : "", reason);
+    result = vtFail(error, why, "model '%.200s': %s", def->name != nullptr ? def->name : "", reason.c_str());
     return false;
+}
+
+void Loader::noteIgnored(const char* format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    ignored.push_back(print(format, arguments));
+    va_end(arguments);
+}
+
+void Loader::note(const char* format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    notes += (notes.empty() ? "'" : "\n'") + quotable(def->name != nullptr ? def->name : "") +
+             "': " + print(format, arguments);
+    va_end(arguments);
+}
+
+bool Loader::spend(uint64_t bytes, const std::string& what)
+{
+    if (bytes > budget) {
+        return fail(vt_errorMemory,
+                    "%s takes %llu bytes, and all that a model reads and unpacks may take %llu; simplify it",
+                    what.c_str(), (unsigned long long)bytes, (unsigned long long)mostExternalBytes);
+    }
+    budget -= bytes;
+    return true;
 }
 
 bool Loader::has(const char* what, int index, size_t count)
@@ -43,9 +79,88 @@ std::string label(int index, const std::string& name)
     return std::to_string(index) + (text.empty() ? "" : ", " + text);
 }
 
+std::string counted(size_t count, const char* what)
+{
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 uint32_t readU32(const uint8_t* p)
 {
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+uint32_t readIndex(const Stream& indices, size_t i)
+{
+    const uint8_t* p = indices.data + i * indices.stride;
+    switch (indices.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return p[0];
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return (uint32_t)p[0] | (uint32_t)p[1] << 8;
+    default:
+        return readU32(p);
+    }
+}
+
+float readNumber(const Stream& stream, size_t i, size_t k)
+{
+    const uint8_t* p = stream.data + i * stream.stride;
+    const auto word = [&] { return (uint32_t)p[2 * k] | (uint32_t)p[2 * k + 1] << 8; };
+    const auto share = [&](float number, float most) {
+        return stream.normalized ? std::fmax(number / most, -1.0f) : number;
+    };
+    switch (stream.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return share((float)(int8_t)p[k], 127.0f);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return share((float)p[k], 255.0f);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return share((float)(int16_t)word(), 32767.0f);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return share((float)word(), 65535.0f);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return (float)readU32(p + 4 * k);
+    default: {
+        const uint32_t bits = readU32(p + 4 * k);
+        float value;
+        memcpy(&value, &bits, sizeof value);
+        return value;
+    }
+    }
+}
+
+Matrix multiply(const Matrix& a, const Matrix& b)
+{
+    Matrix product;
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            double sum = 0.0;
+            for (int k = 0; k < 4; ++k) {
+                sum += a.m[4 * k + row] * b.m[4 * column + k];
+            }
+            product.m[4 * column + row] = sum;
+        }
+    }
+    return product;
+}
+
+Matrix composeMatrix(const double t[3], const double r[4], const double s[3])
+{
+    const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+    const double x = r[0] / length, y = r[1] / length, z = r[2] / length, w = r[3] / length;
+    const double rotation[3][3] = {
+        {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+        {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+        {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
+    };
+    Matrix matrix;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            matrix.m[4 * column + row] = s[column] * rotation[column][row];
+        }
+        matrix.m[12 + row] = t[row];
+    }
+    return matrix;
 }
 
 } // namespace vtGltf

@@ -1,18 +1,14 @@
-// Materials of glTF 2.0 and its extensions KHR_materials_transmission, _ior, _volume and _emissive_strength.
+// Materials of glTF 2.0 and its extensions KHR_materials_transmission, _ior, _volume, _emissive_strength,
+// _specular, _iridescence, _dispersion and _unlit.
 //
-// Any transmission makes solid glass: there is no share of it. Not drawn: pictures on glass, normal maps,
-// emissive pictures (a material that has one gives no light at all, rather than too much), clearcoat and the
-// like; KHR_materials_unlit is taken as lit. doubleSided needs nothing: surfaces count from both sides.
+// Glass is what has a share that passes. It is a thin wall unless KHR_materials_volume gives it a thickness.
+// Both sides of a surface are drawn, doubleSided or not.
 
 #include "gltf/gltf.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-
-extern "C" {
-#include "image/image.h"
-}
 
 namespace vtGltf
 {
@@ -52,132 +48,133 @@ static vtVec3 toColor(const std::vector<double>& numbers)
     return {share(0), share(1), share(2)};
 }
 
+/// Three numbers of 0 and above under a key of an extension. Leaves *color where the file does not give it.
+static bool readColor(Loader& loader, int index, const char* extension, const char* key, vtVec3* color)
+{
+    const tinygltf::Value* value = findValue(loader.model.materials[(size_t)index], extension, key);
+    if (value == nullptr) {
+        return true;
+    }
+    double numbers[3] = {NAN, NAN, NAN};
+    for (int i = 0; value->IsArray() && value->ArrayLen() == 3 && i < 3; ++i) {
+        numbers[i] = value->Get(i).IsNumber() ? value->Get(i).GetNumberAsDouble() : NAN;
+    }
+    for (double& number : numbers) {
+        if (std::isnan(number)) {
+            return loader.fail(vt_errorFormat, "material %d has a%s %s that is not three numbers; correct %s",
+                               index, key[0] == 'a' || key[0] == 'e' ? "n" : "", key, extension);
+        }
+        number = std::clamp(number, 0.0, (double)FLT_MAX);
+    }
+    *color = {(float)numbers[0], (float)numbers[1], (float)numbers[2]};
+    return true;
+}
+
+/// The same of a number, into a float.
+static bool readFloat(Loader& loader, int index, const char* extension, const char* key, const char* what,
+                      double least, float* number)
+{
+    double value = (double)*number;
+    if (!readExtra(loader, index, extension, key, what, least, &value)) {
+        return false;
+    }
+    *number = (float)value;
+    return true;
+}
+
 static bool readAttenuation(Loader& loader, int index, vtMaterial* material)
 {
     const char* extension = "KHR_materials_volume";
     double distance = 0.0; // infinite, says the extension; some exporters write it as 0, too
     if (!readExtra(loader, index, extension, "attenuationDistance", "an attenuationDistance", 0.0,
-                   &distance)) {
+                   &distance) ||
+        !readColor(loader, index, extension, "attenuationColor", &material->attenuationColor)) {
         return false;
     }
     material->attenuationDistance = (float)distance;
-    const tinygltf::Value* color =
-        findValue(loader.model.materials[(size_t)index], extension, "attenuationColor");
-    if (color == nullptr) {
-        return true;
-    }
-    std::vector<double> numbers;
-    for (int i = 0; color->IsArray() && i < (int)color->ArrayLen() && i < 4; ++i) {
-        numbers.push_back(color->Get(i).IsNumber() ? color->Get(i).GetNumberAsDouble() : NAN);
-    }
-    if (numbers.size() != 3 || std::isnan(numbers[0] + numbers[1] + numbers[2])) {
-        return loader.fail(
-            vt_errorFormat,
-            "material %d has an attenuationColor that is not three numbers; correct KHR_materials_volume",
-            index);
-    }
-    material->attenuationColor = toColor(numbers);
+    material->attenuationColor =
+        toColor({(double)material->attenuationColor.x, (double)material->attenuationColor.y,
+                 (double)material->attenuationColor.z});
     return true;
 }
 
 // --------------------------------------------------------------------------------------------- materials
 
-static bool readGlass(Loader& loader, int index, vtMaterial* material)
+/// What the surface itself is, glass or not.
+static bool readSurface(Loader& loader, int index, const tinygltf::Material& given, vtMaterial* material)
 {
-    material->tint = toColor(loader.model.materials[(size_t)index].pbrMetallicRoughness.baseColorFactor);
-    return readAttenuation(loader, index, material);
-}
-
-/// glTF's default where index is -1. Pictures come later.
-static bool readOpaque(Loader& loader, int index, vtMaterial* material)
-{
-    const tinygltf::Material standard;
-    const tinygltf::Material& given = index >= 0 ? loader.model.materials[(size_t)index] : standard;
     const tinygltf::PbrMetallicRoughness& look = given.pbrMetallicRoughness;
+    const auto share = [](double number) { return (float)std::clamp(number, 0.0, 1.0); };
     double strength = 1.0;
     if (index >= 0 && !readExtra(loader, index, "KHR_materials_emissive_strength", "emissiveStrength",
                                  "an emissiveStrength", 0.0, &strength)) {
         return false;
     }
-    strength = given.emissiveTexture.index >= 0 ? 0.0 : strength;
     const auto light = [&](size_t i) {
         const double factor = i < given.emissiveFactor.size() ? given.emissiveFactor[i] : 0.0;
         return (float)std::clamp(factor * strength, 0.0, (double)FLT_MAX);
     };
-    material->opaque = true;
-    material->baseColor = toColor(look.baseColorFactor);
-    material->metallic = (float)std::clamp(look.metallicFactor, 0.0, 1.0);
-    material->roughness = (float)std::clamp(look.roughnessFactor, 0.0, 1.0);
+    material->baseColor = material->tint = toColor(look.baseColorFactor);
+    material->alpha = look.baseColorFactor.size() == 4 ? share(look.baseColorFactor[3]) : 1.0f;
+    material->alphaMode = given.alphaMode == "MASK"    ? vt_alphaMask
+                          : given.alphaMode == "BLEND" ? vt_alphaBlend
+                                                       : vt_alphaOpaque;
+    material->alphaCutoff = (float)std::clamp(given.alphaCutoff, 0.0, 2.0);
+    material->metallic = share(look.metallicFactor);
+    material->roughness = share(look.roughnessFactor);
     material->emissive = {light(0), light(1), light(2)};
+    material->normalScale = (float)given.normalTexture.scale;
+    material->occlusionStrength = share(given.occlusionTexture.strength);
     return true;
 }
 
-/// The file's material as it says; without KHR_materials_transmission it is opaque.
-static bool readMaterial(Loader& loader, int index, vtMaterial* material)
+static bool readExtensions(Loader& loader, int index, vtMaterial* material)
 {
-    *material = vtDefaultMaterial();
-    if (index < 0) {
-        return readOpaque(loader, index, material);
-    }
-    double transmission = 0.0, ior = 1.5;
-    if (!readExtra(loader, index, "KHR_materials_transmission", "transmissionFactor", "a transmissionFactor",
-                   0.0, &transmission) ||
-        !readExtra(loader, index, "KHR_materials_ior", "ior", "an index of refraction", 1.0, &ior)) {
+    const char *specular = "KHR_materials_specular", *film = "KHR_materials_iridescence";
+    double ior = 1.5;
+    if (!readExtra(loader, index, "KHR_materials_ior", "ior", "an index of refraction", -(double)FLT_MAX,
+                   &ior)) {
         return false;
     }
     material->ior = (float)ior;
-    return transmission > 0.0 ? readGlass(loader, index, material) : readOpaque(loader, index, material);
+    material->iridescenceIor = 1.3f;
+    return readFloat(loader, index, specular, "specularFactor", "a specularFactor", 0.0,
+                     &material->specular) &&
+           readColor(loader, index, specular, "specularColorFactor", &material->specularColor) &&
+           readFloat(loader, index, film, "iridescenceFactor", "an iridescenceFactor", 0.0,
+                     &material->iridescence) &&
+           readFloat(loader, index, film, "iridescenceIor", "an iridescenceIor", 1.0,
+                     &material->iridescenceIor) &&
+           readFloat(loader, index, film, "iridescenceThicknessMinimum", "an iridescenceThicknessMinimum",
+                     0.0, &material->iridescenceMin) &&
+           readFloat(loader, index, film, "iridescenceThicknessMaximum", "an iridescenceThicknessMaximum",
+                     0.0, &material->iridescenceMax) &&
+           readFloat(loader, index, "KHR_materials_dispersion", "dispersion", "a dispersion", 0.0,
+                     &material->dispersion);
 }
 
-// ---------------------------------------------------------------------------------------------- pictures
-
-/// Loads the picture of a texture, unless it is there; *image is its number in the scene.
-static bool usePicture(Loader& loader, const tinygltf::TextureInfo& info, int* image)
+/// The file's material as it says; without KHR_materials_transmission it is opaque. -1: glTF's default.
+static bool readMaterial(Loader& loader, int index, vtMaterial* material)
 {
-    if (info.index < 0) {
-        return true;
-    }
-    if (!loader.has("texture", info.index, loader.model.textures.size())) {
+    const tinygltf::Material standard;
+    const tinygltf::Material& given = index >= 0 ? loader.model.materials[(size_t)index] : standard;
+    *material = vtDefaultMaterial();
+    double transmission = 0.0, thickness = 0.0;
+    if (!readSurface(loader, index, given, material)) {
         return false;
     }
-    const int source = loader.model.textures[(size_t)info.index].source;
-    if (source < 0) {
-        return loader.fail(vt_errorFormat,
-                           "texture %d has no PNG or JPEG picture; export it with pictures of these formats",
-                           info.index);
-    }
-    if (!loader.has("image", source, loader.pictures.size())) {
+    if (index >= 0 && (!readExtensions(loader, index, material) ||
+                       !readExtra(loader, index, "KHR_materials_transmission", "transmissionFactor",
+                                  "a transmissionFactor", 0.0, &transmission) ||
+                       !readExtra(loader, index, "KHR_materials_volume", "thicknessFactor",
+                                  "a thicknessFactor", 0.0, &thickness))) {
         return false;
     }
-    Picture& picture = loader.pictures[(size_t)source];
-    if (picture.image < 0) {
-        std::vector<uint8_t> contents;
-        Bytes bytes;
-        if (!openPicture(loader, source, &contents, &bytes)) {
-            return false;
-        }
-        const bool isFile = picture.name.empty() && picture.uri.compare(0, 5, "data:") != 0;
-        const std::string name = label(source, isFile ? picture.uri : picture.name);
-        vtError error = {};
-        const vtResult result = vtDecodeImage(bytes.data, bytes.size, name.c_str(),
-                                              &loader.scene->images[loader.scene->imageCount], &error);
-        if (result != vt_ok) {
-            return loader.fail(result, "%s", error.message);
-        }
-        picture.image = (int)loader.scene->imageCount++;
-    }
-    *image = picture.image;
-    return true;
-}
-
-static bool usePictures(Loader& loader, int index, vtMaterial* material)
-{
-    if (index < 0 || !material->opaque) {
-        return true;
-    }
-    const tinygltf::PbrMetallicRoughness& look = loader.model.materials[(size_t)index].pbrMetallicRoughness;
-    return usePicture(loader, look.baseColorTexture, &material->baseColorImage) &&
-           usePicture(loader, look.metallicRoughnessTexture, &material->metallicRoughnessImage);
+    material->unlit = given.extensions.count("KHR_materials_unlit") > 0;
+    material->opaque = !(transmission > 0.0) || material->unlit;
+    material->transmission = (float)std::min(transmission, 1.0);
+    material->thin = !material->opaque && !(thickness > 0.0);
+    return material->opaque || readAttenuation(loader, index, material);
 }
 
 // -------------------------------------------------------------------------------------------------- calls
@@ -206,6 +203,25 @@ static void makeAllGlass(std::vector<vtMaterial>& materials, std::vector<uint32_
     materials = glass;
 }
 
+/// Glass needs an index that light can bend by. What is opaque only reflects by it, and has the usual one
+/// instead.
+static bool checkIndex(Loader& loader, int index, bool isGlass, vtMaterial* material)
+{
+    const double ior = (double)material->ior;
+    if (ior == 0.0 || ior >= 1.0) {
+        return true;
+    }
+    if (isGlass) {
+        return loader.fail(vt_errorFormat,
+                           "material %d has an index of refraction of %g, but it must be 0, or 1 or more; "
+                           "correct KHR_materials_ior",
+                           index, ior);
+    }
+    loader.noteIgnored("an index of refraction of %g", ior);
+    material->ior = 1.5f;
+    return true;
+}
+
 bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf)
 {
     vtScene* scene = loader.scene;
@@ -228,6 +244,11 @@ bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf)
     }
     scene->allGlass = std::all_of(materials.begin(), materials.end(),
                                   [](const vtMaterial& material) { return material.opaque; });
+    for (size_t i = 0; i < materials.size(); ++i) {
+        if (!checkIndex(loader, used[i], scene->allGlass || !materials[i].opaque, &materials[i])) {
+            return false;
+        }
+    }
     if (scene->allGlass) {
         makeAllGlass(materials, *materialOf);
     }
@@ -242,7 +263,8 @@ bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf)
     }
     scene->materialCount = (uint32_t)materials.size();
     for (size_t i = 0; i < materials.size(); ++i) {
-        if (!scene->allGlass && !usePictures(loader, used[i], &materials[i])) {
+        if (!scene->allGlass && used[i] >= 0 &&
+            !openMaps(loader, loader.model.materials[(size_t)used[i]], &materials[i])) {
             return false;
         }
         scene->materials[i] = materials[i];

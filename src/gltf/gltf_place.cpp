@@ -88,6 +88,13 @@ static bool toTransform(Loader& loader, const Placement& at, vtTransform* transf
     return true;
 }
 
+bool failObjects(Loader& loader, size_t count)
+{
+    return loader.fail(vt_errorGeometry,
+                       "its nodes place %zu meshes but there can be %d; join some and export it again", count,
+                       VT_MAX_OBJECTS);
+}
+
 bool makeObjects(Loader& loader)
 {
     vtScene* scene = loader.scene;
@@ -96,13 +103,12 @@ bool makeObjects(Loader& loader)
         count += loader.sources[(size_t)at.what].meshes.size();
     }
     if (count > VT_MAX_OBJECTS) {
-        return loader.fail(vt_errorGeometry,
-                           "its nodes place %zu meshes but there can be %d; join some and export it again",
-                           count, VT_MAX_OBJECTS);
+        return failObjects(loader, count);
     }
     if (!loader.allocate(count, &scene->objects)) {
         return false;
     }
+    uint32_t body = 0;
     for (const Placement& at : loader.objects) {
         const Source& source = loader.sources[(size_t)at.what];
         const std::string& own = loader.model.nodes[(size_t)at.node].name;
@@ -110,19 +116,21 @@ bool makeObjects(Loader& loader)
         if (!toTransform(loader, at, &toWorld)) {
             return false;
         }
+        ++body;
         for (size_t i = 0; i < source.meshes.size(); ++i) {
             vtObject* object = &scene->objects[scene->objectCount++];
             object->mesh = source.meshes[i];
             object->material = source.materials[i];
             object->toWorld = toWorld;
-            copyName(own.empty() ? loader.model.meshes[(size_t)at.what].name : own, object->name,
+            object->body = source.bounds[i] ? body : 0;
+            copyName(own.empty() ? loader.model.meshes[(size_t)source.mesh].name : own, object->name,
                      sizeof object->name);
         }
     }
     return true;
 }
 
-/// Perspective cameras; their roll is lost, since views are level.
+/// Their roll is lost, since views are level.
 bool makeCameras(Loader& loader)
 {
     vtScene* scene = loader.scene;
@@ -135,14 +143,16 @@ bool makeCameras(Loader& loader)
     }
     for (const Placement& at : loader.cameras) {
         const tinygltf::Camera& camera = loader.model.cameras[(size_t)at.what];
-        if (camera.type != "perspective") {
-            continue;
-        }
-        const double yfov = camera.perspective.yfov;
+        const bool isFlat = camera.type == "orthographic";
+        const double yfov = isFlat ? 0.25 * pi : camera.perspective.yfov, ymag = camera.orthographic.ymag;
         if (!(yfov > 0.0 && yfov < pi)) {
             return loader.fail(vt_errorFormat,
                                "camera %s has a yfov of %g, but it must be above 0 and below pi; correct it",
                                label(at.what, camera.name).c_str(), yfov);
+        }
+        if (isFlat && !(ymag != 0.0 && std::isfinite((float)ymag))) {
+            return loader.fail(vt_errorFormat, "camera %s has a ymag of %g, but it must not be 0; correct it",
+                               label(at.what, camera.name).c_str(), ymag);
         }
         const double* m = at.toWorld.m;
         const double length = std::hypot(m[8], m[9], m[10]);
@@ -159,7 +169,11 @@ bool makeCameras(Loader& loader)
         for (size_t k = 0; k < 3; ++k) {
             target[k] = m[12 + k] - distance * m[8 + k] / length;
         }
-        vtView* view = &scene->cameras[scene->cameraCount++];
+        vtSceneCamera* made = &scene->cameras[scene->cameraCount++];
+        vtView* view = &made->view;
+        const std::string& own = loader.model.nodes[(size_t)at.node].name;
+        copyName(own.empty() ? camera.name : own, made->name, sizeof made->name);
+        made->orthographicHeight = isFlat ? (float)(2.0 * std::fabs(ymag)) : 0.0f;
         view->eye = {(float)m[12], (float)m[13], (float)m[14]};
         view->target = {(float)target[0], (float)target[1], (float)target[2]};
         view->fovY = (float)std::clamp(yfov * 180.0 / pi, 1.0, 170.0);

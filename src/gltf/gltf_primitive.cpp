@@ -1,4 +1,4 @@
-// Buffer views, accessors and primitives: every index and offset of theirs is checked here.
+// Primitives: what they give for each vertex, and their triangles. Every index of theirs is checked here.
 
 #include "gltf/gltf.h"
 
@@ -7,123 +7,74 @@
 namespace vtGltf
 {
 
-// The file's numbers are at most 2^31 (gltf_document.cpp), strides 252: no sum overflows 64 bits.
+/// Where the data of a primitive are: in accessors, or unpacked.
+struct Opening {
+    Loader& loader;
+    Streams decoded;
+};
 
-bool openView(Loader& loader, const std::string& what, int index, uint64_t length, Bytes* bytes)
+static const Stream* find(const Streams& streams, const std::string& name)
 {
-    const tinygltf::Model& model = loader.model;
-    if (index < 0 || (size_t)index >= model.bufferViews.size()) {
-        return loader.fail(vt_errorFormat, "%s has no data (buffer view %d of %zu); export it uncompressed",
-                           what.c_str(), index, model.bufferViews.size());
+    for (const auto& entry : streams) {
+        if (entry.first == name) {
+            return &entry.second;
+        }
     }
-    const tinygltf::BufferView& view = model.bufferViews[(size_t)index];
-    if (!loader.has("buffer", view.buffer, loader.buffers.size())) {
-        return false;
-    }
-    const Bytes buffer = loader.buffers[(size_t)view.buffer];
-    if (buffer.data == nullptr) {
-        return loader.fail(vt_errorFormat, "%s reads buffer %d, which has no data; export it uncompressed",
-                           what.c_str(), view.buffer);
-    }
-    const uint64_t left = buffer.size > view.byteOffset ? buffer.size - view.byteOffset : 0;
-    const uint64_t room = std::min<uint64_t>(left, view.byteLength);
-    length = length == wholeView ? view.byteLength : length;
-    if (length > room || view.byteOffset > buffer.size) {
-        return loader.fail(vt_errorFormat, "%s reads %llu bytes beyond the end of its buffer" GLTF_DAMAGED,
-                           what.c_str(), (unsigned long long)(length - room));
-    }
-    *bytes = {buffer.data + view.byteOffset, (size_t)length};
-    return true;
+    return nullptr;
 }
 
-static bool openAccessor(Loader& loader, int index, Stream* stream)
+/// Opens the accessor, or what was unpacked in its place; `name` "" is the indices.
+static bool open(Opening& from, const std::string& name, int accessor, Stream* stream)
 {
-    const tinygltf::Model& model = loader.model;
-    if (!loader.has("accessor", index, model.accessors.size())) {
+    const Stream* decoded = find(from.decoded, name);
+    if (decoded != nullptr) {
+        *stream = *decoded;
+        return true;
+    }
+    return openAccessor(from.loader, accessor, stream);
+}
+
+static bool isWhole(const Stream& stream)
+{
+    const int type = stream.componentType;
+    return type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+           type == TINYGLTF_COMPONENT_TYPE_SHORT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+}
+
+/// Opens what is a number or a vector: floats, or 8 or 16-bit numbers (KHR_mesh_quantization). `components`:
+/// how many it must have; one more does, too, where `more`.
+static bool openNumbers(Opening& from, int accessor, const std::string& name, int components, bool more,
+                        Stream* stream)
+{
+    if (!open(from, name, accessor, stream)) {
         return false;
     }
-    const tinygltf::Accessor& accessor = model.accessors[(size_t)index];
-    if (accessor.sparse.isSparse) {
-        return loader.fail(
+    const bool fits = stream->components == components || (more && stream->components == components + 1);
+    static const char* const counts[] = {"no", "one", "two", "three", "four"};
+    // Numbers that stand for themselves would be places, on pictures too, or joints.
+    const bool anyRange = name == "POSITION" || name[0] == 'T' || name[0] == 'J';
+    if (!fits || (stream->componentType != TINYGLTF_COMPONENT_TYPE_FLOAT &&
+                  !(isWhole(*stream) && (anyRange || stream->normalized)))) {
+        return from.loader.fail(
             vt_errorFormat,
-            "accessor %d is sparse, which is not supported; export it without sparse accessors", index);
-    }
-    const int components = tinygltf::GetNumComponentsInType((uint32_t)accessor.type);
-    const int componentSize = tinygltf::GetComponentSizeInBytes((uint32_t)accessor.componentType);
-    if (components <= 0 || componentSize <= 0) {
-        return loader.fail(vt_errorFormat, "accessor %d has the unknown componentType %d" GLTF_DAMAGED, index,
-                           accessor.componentType);
-    }
-    const size_t elementSize = (size_t)(components * componentSize);
-    const bool hasView =
-        accessor.bufferView >= 0 && (size_t)accessor.bufferView < model.bufferViews.size(); // else it fails
-    const size_t given = hasView ? model.bufferViews[(size_t)accessor.bufferView].byteStride : 0;
-    const size_t stride = given > 0 ? given : elementSize;
-    if (stride < elementSize) {
-        return loader.fail(vt_errorFormat,
-                           "accessor %d has elements of %zu bytes every %zu bytes" GLTF_DAMAGED, index,
-                           elementSize, stride);
-    }
-    const uint64_t length = accessor.count > 0 ? (uint64_t)(accessor.count - 1) * stride + elementSize : 0;
-    Bytes bytes;
-    if (!openView(loader, "accessor " + std::to_string(index), accessor.bufferView,
-                  accessor.byteOffset + length, &bytes)) {
-        return false;
-    }
-    *stream = {bytes.data + accessor.byteOffset, accessor.count, stride, accessor.componentType};
-    return true;
-}
-
-/// Opens an accessor of positions or normals.
-static bool openVectors(Loader& loader, int index, const char* attribute, Stream* stream)
-{
-    if (!openAccessor(loader, index, stream)) {
-        return false;
-    }
-    if (loader.model.accessors[(size_t)index].type != TINYGLTF_TYPE_VEC3 ||
-        stream->componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-        return loader.fail(
-            vt_errorFormat,
-            "accessor %d holds %s as something else than three floats; export it without quantization", index,
-            attribute);
-    }
-    return true;
-}
-
-/// Opens an accessor of texture coordinates (2 components) or colours (3, or 4 of which the last is dropped).
-static bool openShares(Loader& loader, int index, const char* attribute, int components, Stream* stream)
-{
-    if (!openAccessor(loader, index, stream)) {
-        return false;
-    }
-    const tinygltf::Accessor& accessor = loader.model.accessors[(size_t)index];
-    const int given = tinygltf::GetNumComponentsInType((uint32_t)accessor.type);
-    const bool isVector = accessor.type == TINYGLTF_TYPE_VEC2 || accessor.type == TINYGLTF_TYPE_VEC3 ||
-                          accessor.type == TINYGLTF_TYPE_VEC4;
-    const bool isShare =
-        accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                                accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-    if (!isVector || (given != components && (components == 2 || given != 4)) ||
-        (!isShare && accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)) {
-        return loader.fail(vt_errorFormat,
-                           "accessor %d holds %s as something else than %s floats or normalized unsigned 8 "
-                           "or 16-bit numbers; export it without quantization",
-                           index, attribute, components == 2 ? "two" : "three or four");
+            "accessor %d holds %s as something else than %s floats or %s8 or 16-bit numbers" GLTF_DAMAGED,
+            accessor, name.c_str(), more ? "three or four" : counts[components],
+            anyRange ? "" : "normalized ");
     }
     return true;
 }
 
 /// Opens an accessor of indices and checks that each names one of `vertexCount` vertices.
-static bool openIndices(Loader& loader, int index, size_t vertexCount, Stream* stream)
+static bool openIndices(Opening& from, int index, size_t vertexCount, Stream* stream)
 {
-    if (!openAccessor(loader, index, stream)) {
+    if (!open(from, "", index, stream)) {
         return false;
     }
-    const int component = stream->componentType;
-    if (loader.model.accessors[(size_t)index].type != TINYGLTF_TYPE_SCALAR ||
-        (component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-         component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-         component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
+    Loader& loader = from.loader;
+    const int type = stream->componentType;
+    if (stream->components != 1 ||
+        (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
         return loader.fail(
             vt_errorFormat,
             "accessor %d holds indices that are not 8, 16 or 32-bit unsigned numbers" GLTF_DAMAGED, index);
@@ -139,70 +90,161 @@ static bool openIndices(Loader& loader, int index, size_t vertexCount, Stream* s
     return true;
 }
 
-/// The set of texture coordinates that the material's pictures are placed by; a mesh keeps one.
-static std::string texcoordName(const Loader& loader, int material)
+/// The k-th of the sets of texture coordinates that the material's pictures lie by; "": there are fewer.
+static std::string texcoordName(const Loader& loader, int material, size_t k)
 {
-    int set = 0;
-    if (material >= 0) {
-        const tinygltf::PbrMetallicRoughness& look =
-            loader.model.materials[(size_t)material].pbrMetallicRoughness;
-        set = look.baseColorTexture.index >= 0           ? look.baseColorTexture.texCoord
-              : look.metallicRoughnessTexture.index >= 0 ? look.metallicRoughnessTexture.texCoord
-                                                         : 0;
-    }
-    return "TEXCOORD_" + std::to_string(set);
+    const std::vector<int> sets =
+        material >= 0 ? texcoordSetsOf(loader.model.materials[(size_t)material]) : std::vector<int>();
+    return k < sets.size() ? "TEXCOORD_" + std::to_string(sets[k]) : k == 0 ? "TEXCOORD_0" : "";
 }
 
-/// Opens what a primitive gives for each vertex.
-static bool openAttributes(Loader& loader, const tinygltf::Primitive& primitive, Part* part)
+static bool hasNormalMap(const Loader& loader, int material)
 {
-    const std::string texcoordKey = texcoordName(loader, part->material);
-    const auto find = [&](const std::string& key) {
-        const auto at = primitive.attributes.find(key);
-        return at != primitive.attributes.end() ? at->second : -1;
-    };
-    const int position = find("POSITION"), normal = find("NORMAL"), texcoord = find(texcoordKey),
-              color = find("COLOR_0");
-    if (!openVectors(loader, position, "POSITION", &part->positions) ||
-        (normal >= 0 && !openVectors(loader, normal, "NORMAL", &part->normals)) ||
-        (texcoord >= 0 && !openShares(loader, texcoord, texcoordKey.c_str(), 2, &part->texcoords)) ||
-        (color >= 0 && !openShares(loader, color, "COLOR_0", 3, &part->colors))) {
-        return false;
-    }
-    const struct {
-        int index;
-        const char* what;
-        const Stream& stream;
-    } others[] = {{normal, "normals", part->normals},
-                  {texcoord, "texture coordinates", part->texcoords},
-                  {color, "colours", part->colors}};
-    for (const auto& other : others) {
-        if (other.index >= 0 && other.stream.count != part->positions.count) {
-            return loader.fail(vt_errorFormat, "accessor %d has %zu %s for %zu positions" GLTF_DAMAGED,
-                               other.index, other.stream.count, other.what, part->positions.count);
+    return material >= 0 && loader.model.materials[(size_t)material].normalTexture.index >= 0;
+}
+
+static int find(const std::map<std::string, int>& attributes, const std::string& name)
+{
+    const auto at = attributes.find(name);
+    return at != attributes.end() ? at->second : -1;
+}
+
+/// Is there as much of it as of positions?
+static bool hasAll(Loader& loader, const Stream& stream, int index, const std::string& name, const Part& part)
+{
+    return stream.count == part.positions.count ||
+           loader.fail(vt_errorFormat, "accessor %d has %zu of %s for %zu positions" GLTF_DAMAGED, index,
+                       stream.count, name.c_str(), part.positions.count);
+}
+
+/// Opens an attribute that the primitive may have.
+static bool openAttribute(Opening& from, const std::map<std::string, int>& attributes,
+                          const std::string& name, int components, bool more, const Part& part,
+                          Stream* stream)
+{
+    const int index = find(attributes, name);
+    return name.empty() || index < 0 ||
+           (openNumbers(from, index, name, components, more, stream) &&
+            hasAll(from.loader, *stream, index, name, part));
+}
+
+/// Opens the morph targets whose weights are not 0.
+static bool openTargets(Opening& from, const tinygltf::Primitive& primitive, const Source& source, Part* part)
+{
+    Opening plain = {from.loader, {}}; // targets are never packed with the primitive
+    for (size_t i = 0; i < primitive.targets.size() && i < source.weights.size(); ++i) {
+        Target target = {source.weights[i], {}, {}};
+        if (target.weight == 0.0) {
+            continue;
         }
+        if (!openAttribute(plain, primitive.targets[i], "POSITION", 3, false, *part, &target.positions) ||
+            !openAttribute(plain, primitive.targets[i], "NORMAL", 3, false, *part, &target.normals)) {
+            return false;
+        }
+        part->targets.push_back(target);
     }
     return true;
 }
 
-bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, std::vector<Part>* parts)
+/// Opens JOINTS_n and WEIGHTS_n, and checks that the skin has each joint that counts.
+static bool openInfluences(Opening& from, const tinygltf::Primitive& primitive, const Source& source,
+                           Part* part)
 {
-    const bool triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES;
-    if (primitive.attributes.count("POSITION") == 0 ||
-        (!triangles && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
-         primitive.mode != TINYGLTF_MODE_TRIANGLE_FAN)) {
-        return true; // points and lines bound nothing
+    for (int set = 0; source.skin >= 0; ++set) {
+        const std::string joints = "JOINTS_" + std::to_string(set),
+                          weights = "WEIGHTS_" + std::to_string(set);
+        Influence influence;
+        if (find(primitive.attributes, joints) < 0 || find(primitive.attributes, weights) < 0) {
+            break;
+        }
+        if (!openAttribute(from, primitive.attributes, joints, 4, false, *part, &influence.joints) ||
+            !openAttribute(from, primitive.attributes, weights, 4, false, *part, &influence.weights)) {
+            return false;
+        }
+        for (size_t i = 0; i < 4 * part->positions.count; ++i) {
+            const float joint = readNumber(influence.joints, i / 4, i % 4);
+            if (!(joint >= 0.0f && joint < (float)source.joints.size()) &&
+                readNumber(influence.weights, i / 4, i % 4) != 0.0f) {
+                return from.loader.fail(
+                    vt_errorFormat,
+                    "vertex %zu of mesh %d hangs on joint %g, but skin %d has %zu" GLTF_DAMAGED, i / 4,
+                    source.mesh, (double)joint, source.skin, source.joints.size());
+            }
+        }
+        part->influences.push_back(influence);
+    }
+    return true;
+}
+
+/// Opens what a primitive gives for each vertex.
+static bool openAttributes(Opening& from, const tinygltf::Primitive& primitive, const Source& source,
+                           Part* part)
+{
+    const std::map<std::string, int>& attributes = primitive.attributes;
+    return openNumbers(from, find(attributes, "POSITION"), "POSITION", 3, false, &part->positions) &&
+           openAttribute(from, attributes, "NORMAL", 3, false, *part, &part->normals) &&
+           openAttribute(from, attributes, texcoordName(from.loader, part->material, 0), 2, false, *part,
+                         &part->texcoords) &&
+           openAttribute(from, attributes, texcoordName(from.loader, part->material, 1), 2, false, *part,
+                         &part->texcoords1) &&
+           (!hasNormalMap(from.loader, part->material) ||
+            openAttribute(from, attributes, "TANGENT", 4, false, *part, &part->tangents)) &&
+           openAttribute(from, attributes, "COLOR_0", 3, true, *part, &part->colors) &&
+           openTargets(from, primitive, source, part) && openInfluences(from, primitive, source, part);
+}
+
+/// Unpacks the primitive where it is packed and this build can.
+static bool unpack(Opening& from, const tinygltf::Primitive& primitive)
+{
+    const char* extension = "KHR_draco_mesh_compression";
+    if (primitive.extensions.count(extension) == 0) {
+        return true;
+    }
+    const char* lacking = vtFindGltfExtension(extension)->needs;
+#if VT_WITH_FILES
+    if (lacking == nullptr) {
+        return decodePrimitive(from.loader, primitive, &from.decoded);
+    }
+#endif
+    // Its accessors may hold the same unpacked.
+    const int index = find(primitive.attributes, "POSITION");
+    const std::vector<tinygltf::Accessor>& accessors = from.loader.model.accessors;
+    return index < 0 || (size_t)index >= accessors.size() || accessors[(size_t)index].bufferView >= 0 ||
+           from.loader.fail(vt_errorFormat,
+                            "a primitive is packed by %s, which this build cannot unpack without %s; export "
+                            "it uncompressed",
+                            extension, lacking);
+}
+
+bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, Source* source)
+{
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
+        primitive.mode != TINYGLTF_MODE_TRIANGLE_FAN) {
+        if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+            return loader.fail(vt_errorFormat, "a primitive has the unknown mode %d" GLTF_DAMAGED,
+                               primitive.mode);
+        }
+        ++loader.primitivesWithoutTriangles;
+        return true;
+    }
+    if (primitive.attributes.count("POSITION") == 0) {
+        return true; // the standard lets it draw nothing
     }
     Part part;
     part.mode = primitive.mode;
-    part.material = std::max(primitive.material, -1);
+    part.material = std::max(materialOf(primitive, loader.variant), -1);
+    Opening from = {loader, {}};
     if ((part.material >= 0 && !loader.has("material", part.material, loader.model.materials.size())) ||
-        !openAttributes(loader, primitive, &part)) {
+        !unpack(from, primitive) || !openAttributes(from, primitive, *source, &part)) {
         return false;
     }
+    part.mode = find(from.decoded, "") != nullptr ? TINYGLTF_MODE_TRIANGLES
+                                                  : part.mode; // whatever it was before it was packed
+    const bool triangles = part.mode == TINYGLTF_MODE_TRIANGLES;
     size_t corners = part.positions.count;
-    if (primitive.indices >= 0) {
-        if (!openIndices(loader, primitive.indices, part.positions.count, &part.indices)) {
+    const int indices = find(primitive.attributes, "");
+    if (indices >= 0 || find(from.decoded, "") != nullptr) {
+        if (!openIndices(from, indices, part.positions.count, &part.indices)) {
             return false;
         }
         corners = part.indices.count;
@@ -213,7 +255,7 @@ bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, std::vec
     }
     part.triangleCount = triangles ? corners / 3 : corners > 2 ? corners - 2 : 0;
     if (part.triangleCount > 0) {
-        parts->push_back(part);
+        source->parts.push_back(part);
     }
     return true;
 }

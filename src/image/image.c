@@ -1,64 +1,14 @@
 #include "image/image.h"
 
 #include <assert.h>
-#include <limits.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/image_checks.h"
 #include "image/pfm.h"
-
-/// stb copies nothing to nowhere for an empty chunk of a PNG, which C11 leaves undefined.
-static inline void* copyBytes(void* to, const void* from, size_t size)
-{
-    return size > 0 ? memcpy(to, from, size) : to;
-}
-
-/// Whether stb lacked memory since decoding began. As its own reason for a failure it lives with the thread:
-/// its macros know of no decoder, and its sentences speak of broken files then.
-static _Thread_local bool memoryWasOut;
-
-static void* note(void* memory)
-{
-    memoryWasOut = memoryWasOut || memory == NULL;
-    return memory;
-}
-
-// stb's code is not ours to keep free of warnings. Static, so that an embedder's own copy does not clash;
-// the declarations of the decoders left out then count as unused to the end of the file.
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wsign-compare"
-#pragma GCC diagnostic ignored "-Wshadow"
-#endif
-#define STBI_MALLOC(size) note(vtAllocate(1, size))
-#define STBI_REALLOC(memory, size) note(vtReallocate(memory, 1, size))
-#define STBI_FREE(memory) vtFree(memory)
-#define STBIW_MALLOC(size) vtAllocate(1, size)
-#define STBIW_REALLOC(memory, size) vtReallocate(memory, 1, size)
-#define STBIW_FREE(memory) vtFree(memory)
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_NO_STDIO
-#define STBI_ONLY_HDR
-#ifndef VT_HDR_ONLY // web/CMakeLists.txt: a browser decodes the others itself
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
-#endif
-#define memcpy copyBytes
-#include <stb/stb_image.h>
-#undef memcpy
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#define STBI_WRITE_NO_STDIO
-#include <stb/stb_image_write.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
+#include "image/raster.h"
 
 #define VT_LARGEST_HALF 65504.0f
 
@@ -72,7 +22,77 @@ float vtLinearToSrgb(float linear)
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;
 }
 
-// ---------------------------------------------------------------------------------------- PNG, JPEG, HDR
+// ----------------------------------------------------------------------------------------------- formats
+
+#ifdef VT_HDR_ONLY // web/CMakeLists.txt: a browser decodes the others itself
+#define VT_NATIVE(decoder) NULL
+#else
+#define VT_NATIVE(decoder) decoder
+#endif
+
+typedef struct Format {
+    char name[9];
+    char beginning[9];
+    uint8_t length;   ///< of its beginning
+    bool inMaterials; ///< 8 or 16 bits, as glTF has them
+    vtDecoder* decode;
+} Format;
+
+static const Format formats[] = {
+    {"PNG", "\x89PNG\r\n\x1a\n", 8, true, VT_NATIVE(vtDecodePngRaster)},
+    {"JPEG", "\xFF\xD8\xFF", 3, true, VT_NATIVE(vtDecodeJpegRaster)},
+    {"WebP", "RIFF", 4, true, VT_NATIVE(vtDecodeWebpRaster)},
+    {"OpenEXR", "\x76\x2f\x31\x01", 4, false, VT_NATIVE(vtDecodeExrRaster)},
+    {"HDR", "#?", 2, false, vtDecodeHdrRaster},
+    {"PFM", "PF", 2, false, vtDecodePfmRaster},
+    {"PFM", "Pf", 2, false, vtDecodePfmRaster},
+};
+enum { formatCount = sizeof formats / sizeof formats[0] };
+
+/// By how the file begins, whatever its name; NULL: none of them.
+static const Format* findFormat(const uint8_t* bytes, size_t size)
+{
+    for (int i = 0; i < formatCount; ++i) {
+        const Format* format = &formats[i];
+        const bool begins = size >= format->length && memcmp(bytes, format->beginning, format->length) == 0;
+        if (begins && (format->beginning[0] != 'R' || (size >= 12 && memcmp(bytes + 8, "WEBP", 4) == 0)) &&
+            (format->beginning[0] != 'P' || vtIsPfm(bytes, size))) {
+            return format;
+        }
+    }
+    return NULL;
+}
+
+bool vtIsPicture(const void* bytes, size_t size)
+{
+    return findFormat(bytes, size) != NULL;
+}
+
+static vtResult decode(const vtPictureFile* file, vtRaster* raster, vtError* error)
+{
+    const char* what = file->isRelief ? "relief" : "picture";
+    *raster = (vtRaster){0};
+    const Format* format = findFormat(file->bytes, file->size);
+    if (format == NULL) {
+        return vtFail(error, vt_errorFormat,
+                      "%s '%.300s' %s; give a PNG, JPEG, WebP, OpenEXR, Radiance HDR or PFM file", what,
+                      file->name, file->size == 0 ? "is empty" : "is no picture that can be read");
+    }
+#ifdef VT_HDR_ONLY
+    if (format->decode == NULL) {
+        return vtFail(
+            error, vt_errorFormat,
+            format->inMaterials
+                ? "%s '%.300s' is a %s that the browser could not decode; it is damaged, so save it again"
+                : "%s '%.300s' is %s that element/exr.js could not decode, or it is missing; save it as "
+                  "Radiance HDR",
+            what, file->name, format->name);
+    }
+#endif
+    return format->decode(file, raster, error);
+}
+
+// ------------------------------------------------------------------------------------------------- light
 
 static void sanitise(float* values, size_t count)
 {
@@ -82,19 +102,57 @@ static void sanitise(float* values, size_t count)
     }
 }
 
-static vtResult failMemory(const char* name, int width, int height, vtError* error)
+static size_t pixelsOf(const vtRaster* raster)
 {
-    return vtFail(error, vt_errorMemory, "no memory for the %d x %d pixels of picture '%s'; scale it down",
-                  width, height, name);
+    return (size_t)raster->width * (size_t)raster->height;
 }
 
-static vtResult checkSides(const char* name, int width, int height, vtError* error)
+/// What of 16 bits is not compiled in where nothing gives them.
+static bool isOf16Bits(const vtRaster* raster)
 {
-    if (width < 1 || height < 1 || width > VT_MAX_IMAGE_SIDE || height > VT_MAX_IMAGE_SIDE) {
-        return vtFail(error, vt_errorFormat,
-                      "picture '%s' is %d x %d pixels, but a side must be 1 to %d; scale it down", name,
-                      width, height, VT_MAX_IMAGE_SIDE);
+#ifdef VT_HDR_ONLY
+    (void)raster;
+    return false;
+#else
+    return raster->bits == 16;
+#endif
+}
+
+/// Three linear floats a pixel. Of floats none is taken as sRGB.
+static void linearise(const vtRaster* raster, float* to)
+{
+    float table[256];
+    for (int i = 0; i < 256; ++i) {
+        table[i] = vtSrgbToLinear((float)i / 255.0f);
     }
+    const size_t channels = (size_t)raster->channels, count = pixelsOf(raster);
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t k = 0; k < 3; ++k) {
+            const size_t at = channels * i + (channels < 3 ? 0 : k);
+            *to++ = raster->bits == 8 ? table[((const uint8_t*)raster->samples)[at]]
+                    : isOf16Bits(raster)
+                        ? vtSrgbToLinear((float)((const uint16_t*)raster->samples)[at] / 65535.0f)
+                        : ((const float*)raster->samples)[at];
+        }
+    }
+}
+
+/// The raster's, which it takes over or gives back.
+static vtResult toLinear(const vtPictureFile* file, vtRaster* raster, float** pixels, vtError* error)
+{
+    float* values = raster->bits == 32 && raster->channels == 3 ? raster->samples : NULL;
+    if (values == NULL) {
+        values = vtAllocate(pixelsOf(raster), 3 * sizeof *values);
+        if (values != NULL) {
+            linearise(raster, values);
+        }
+        vtFree(raster->samples);
+    }
+    if (values == NULL) {
+        return vtFailPictureMemory(file, error);
+    }
+    sanitise(values, 3 * pixelsOf(raster));
+    *pixels = values;
     return vtSucceed(error);
 }
 
@@ -103,85 +161,18 @@ vtResult vtLinearise(const uint8_t* samples, int channels, const char* name, int
 {
     assert(samples != NULL && pixels != NULL && channels >= 3);
     *pixels = NULL;
-    name = name != NULL ? name : "";
-    if (checkSides(name, width, height, error) != vt_ok) {
+    const vtPictureFile file = {.name = name != NULL ? name : ""};
+    if (vtCheckPictureSides(file.name, width, height, error) != vt_ok) {
         return vt_errorFormat;
     }
-    const size_t count = (size_t)width * (size_t)height;
-    float* values = vtAllocate(count, 3 * sizeof *values);
-    if (values == NULL) {
-        return failMemory(name, width, height, error);
+    const vtRaster raster = {(uint8_t*)(uintptr_t)samples, width, height, channels, 8};
+    *pixels = vtAllocate(pixelsOf(&raster), 3 * sizeof **pixels);
+    if (*pixels == NULL) {
+        return vtFailPictureMemory(&file, error);
     }
-    float table[256];
-    for (int i = 0; i < 256; ++i) {
-        table[i] = vtSrgbToLinear((float)i / 255.0f);
-    }
-    for (size_t i = 0; i < count; ++i) {
-        for (int k = 0; k < 3; ++k) {
-            values[3 * i + (size_t)k] = table[samples[(size_t)channels * i + (size_t)k]];
-        }
-    }
-    *pixels = values;
+    linearise(&raster, *pixels);
     return vtSucceed(error);
 }
-
-static vtResult failDecode(const char* name, vtError* error)
-{
-    if (memoryWasOut) {
-        return vtFail(error, vt_errorMemory, "no memory to decode picture '%s'; scale it down", name);
-    }
-    const char* reason = stbi_failure_reason();
-    return vtFail(error, vt_errorFormat,
-                  "picture '%s' cannot be decoded as PNG, JPEG or Radiance HDR (%s); it is damaged or of "
-                  "another format, so save it again as one of these",
-                  name, reason != NULL ? reason : "unknown reason");
-}
-
-/// As stbi_loadf_from_memory, which would bring all conversions of the other formats: 2 KB of a page's wasm.
-static float* loadHdr(const uint8_t* bytes, int length, int* width, int* height)
-{
-    stbi__context context;
-    stbi__result_info info;
-    int channels = 0;
-    stbi__start_mem(&context, bytes, length);
-    return stbi__hdr_load(&context, width, height, &channels, 3, &info);
-}
-
-#ifdef VT_HDR_ONLY
-static vtResult decodeSrgb(const uint8_t* bytes, int length, const char* name, float** pixels, int* width,
-                           int* height, vtError* error)
-{
-    (void)bytes, (void)length, (void)pixels, (void)width, (void)height;
-    return failDecode(name, error);
-}
-#else
-/// PNG or JPEG of 8 or 16 bits.
-static vtResult decodeSrgb(const uint8_t* bytes, int length, const char* name, float** pixels, int* width,
-                           int* height, vtError* error)
-{
-    int channels = 0;
-    if (!stbi_is_16_bit_from_memory(bytes, length)) {
-        uint8_t* samples = stbi_load_from_memory(bytes, length, width, height, &channels, 3);
-        if (samples == NULL) {
-            return failDecode(name, error);
-        }
-        const vtResult result = vtLinearise(samples, 3, name, *width, *height, pixels, error);
-        stbi_image_free(samples);
-        return result;
-    }
-    uint16_t* samples = stbi_load_16_from_memory(bytes, length, width, height, &channels, 3);
-    if (samples == NULL) {
-        return failDecode(name, error);
-    }
-    const size_t count = (size_t)*width * (size_t)*height * 3;
-    *pixels = vtAllocate(count, sizeof **pixels);
-    for (size_t i = 0; *pixels != NULL && i < count; ++i) {
-        (*pixels)[i] = vtSrgbToLinear((float)samples[i] / 65535.0f);
-    }
-    stbi_image_free(samples);
-    return *pixels != NULL ? vt_ok : failMemory(name, *width, *height, error);
-}
-#endif
 
 vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, float** pixels, int* width,
                              int* height, vtError* error)
@@ -189,89 +180,67 @@ vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, f
     assert(pixels != NULL && width != NULL && height != NULL && (bytes != NULL || size == 0));
     *pixels = NULL;
     *width = *height = 0;
-    name = name != NULL ? name : "";
-    if (size == 0 || size > INT_MAX) {
-        return vtFail(error, vt_errorFormat, "picture '%s' %s; give a PNG, JPEG or Radiance HDR file", name,
-                      size == 0 ? "is empty" : "is larger than 2 GB");
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false};
+    vtRaster raster;
+    vtResult result = decode(&file, &raster, error);
+    if (result == vt_ok) {
+        result = toLinear(&file, &raster, pixels, error);
     }
-    const int length = (int)size;
-    memoryWasOut = false;
-
-    // The header first, so that a picture that is too large costs no memory.
-    int columns = 0, rows = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes, length, &columns, &rows, &channels)) {
-        return failDecode(name, error);
+    if (result == vt_ok) {
+        *width = raster.width;
+        *height = raster.height;
     }
-    if (checkSides(name, columns, rows, error) != vt_ok) {
-        return vt_errorFormat;
-    }
-
-    float* values = NULL;
-    if (stbi_is_hdr_from_memory(bytes, length)) {
-        values = loadHdr(bytes, length, &columns, &rows);
-        if (values == NULL) {
-            return failDecode(name, error);
-        }
-        sanitise(values, (size_t)columns * (size_t)rows * 3);
-    } else {
-        const vtResult result = decodeSrgb(bytes, length, name, &values, &columns, &rows, error);
-        if (result != vt_ok) {
-            return result;
-        }
-    }
-    *pixels = values;
-    *width = columns;
-    *height = rows;
-    return vtSucceed(error);
+    return result;
 }
 
+// -------------------------------------------------------------------------------------------- materials
+
 #ifdef VT_HDR_ONLY
-static vtResult fillImage(const uint8_t* bytes, int length, const char* name, vtImage* image, vtError* error)
+static vtResult fillImage(const vtPictureFile* file, vtImage* image, vtError* error)
 {
-    image->bytes = vtAllocate(1, (size_t)length);
+    image->bytes = vtAllocate(1, file->size);
     if (image->bytes == NULL) {
-        return vtFail(error, vt_errorMemory, "no memory for the %d bytes of picture '%s'; scale it down",
-                      length, name);
+        return vtFailPictureMemory(file, error);
     }
-    memcpy(image->bytes, bytes, (size_t)length);
-    image->size = (size_t)length;
+    memcpy(image->bytes, file->bytes, file->size);
+    image->size = file->size;
     return vtSucceed(error);
 }
 #else
-/// RGBA. Of 16 bits the upper 8, as stb takes them, which loses the picture where memory is out.
-static uint8_t* loadRgba(const uint8_t* bytes, int length, int* width, int* height)
+/// RGBA; of 16 bits the upper 8.
+static void toRgba(const vtRaster* raster, uint8_t* to)
 {
-    int channels = 0;
-    if (!stbi_is_16_bit_from_memory(bytes, length)) {
-        return stbi_load_from_memory(bytes, length, width, height, &channels, 4);
+    const size_t channels = (size_t)raster->channels, count = pixelsOf(raster);
+    const bool hasAlpha = channels % 2 == 0;
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t k = 0; k < 4; ++k) {
+            const size_t at = channels * i + (k == 3 ? channels - 1 : channels < 3 ? 0 : k);
+            const uint32_t sample = raster->bits == 8 ? ((const uint8_t*)raster->samples)[at]
+                                                      : ((const uint16_t*)raster->samples)[at] >> 8;
+            *to++ = k == 3 && !hasAlpha ? 255 : (uint8_t)sample;
+        }
     }
-    uint16_t* samples = stbi_load_16_from_memory(bytes, length, width, height, &channels, 4);
-    const size_t count = samples != NULL ? 4 * (size_t)*width * (size_t)*height : 0;
-    uint8_t* pixels = samples != NULL ? note(vtAllocate(count, 1)) : NULL;
-    for (size_t i = 0; pixels != NULL && i < count; ++i) {
-        pixels[i] = (uint8_t)(samples[i] >> 8);
-    }
-    stbi_image_free(samples);
-    return pixels;
 }
 
-static vtResult fillImage(const uint8_t* bytes, int length, const char* name, vtImage* image, vtError* error)
+static vtResult fillImage(const vtPictureFile* file, vtImage* image, vtError* error)
 {
-    // The header first, so that a picture that is too large costs no memory.
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes, length, &width, &height, &channels)) {
-        return failDecode(name, error);
+    vtRaster raster;
+    const vtResult result = decode(file, &raster, error);
+    if (result != vt_ok) {
+        return result;
     }
-    if (checkSides(name, width, height, error) != vt_ok) {
-        return vt_errorFormat;
+    image->width = raster.width;
+    image->height = raster.height;
+    if (raster.bits == 8 && raster.channels == 4) {
+        image->pixels = raster.samples;
+        return vtSucceed(error);
     }
-    image->pixels = loadRgba(bytes, length, &width, &height);
-    if (image->pixels == NULL) {
-        return failDecode(name, error);
+    image->pixels = vtAllocate(pixelsOf(&raster), 4);
+    if (image->pixels != NULL) {
+        toRgba(&raster, image->pixels);
     }
-    image->width = width;
-    image->height = height;
-    return vtSucceed(error);
+    vtDestroyRaster(&raster);
+    return image->pixels != NULL ? vtSucceed(error) : vtFailPictureMemory(file, error);
 }
 #endif
 
@@ -279,74 +248,43 @@ vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage
 {
     assert(image != NULL && (bytes != NULL || size == 0));
     *image = (vtImage){0};
-    name = name != NULL ? name : "";
-    const bool isPng = size >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0;
-    const bool isJpeg = size >= 3 && memcmp(bytes, "\xFF\xD8\xFF", 3) == 0;
-    if ((!isPng && !isJpeg) || size > INT_MAX) {
-        return vtFail(error, vt_errorFormat,
-                      "picture '%s' is neither PNG nor JPEG; it is damaged or of another format, so save it "
-                      "again as one of these",
-                      name);
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false};
+    const Format* format = findFormat(bytes, size);
+    if (format == NULL || !format->inMaterials) {
+        return vtFail(
+            error, vt_errorFormat,
+            "picture '%.300s' is neither PNG, JPEG nor WebP; it is damaged or of another format, so save it "
+            "again as one of these",
+            file.name);
     }
-    memoryWasOut = false;
-    return fillImage(bytes, (int)size, name, image, error);
+    const vtResult result = fillImage(&file, image, error);
+    if (result != vt_ok) {
+        *image = (vtImage){0};
+    }
+    return result;
 }
 
-// --------------------------------------------------------------------------------------------------- heights
+// ----------------------------------------------------------------------------------------------- heights
 
-bool vtIsPicture(const void* bytes, size_t size)
+/// Numbers as the file has them, which for heights are no colours.
+static float heightOf(const vtRaster* raster, size_t pixel)
 {
-    const char* const beginnings[] = {"\x89PNG\r\n\x1a\n", "\xFF\xD8\xFF", "#?RADIANCE", "#?RGBE"};
-    for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; ++i) {
-        const size_t length = strlen(beginnings[i]);
-        if (size >= length && memcmp(bytes, beginnings[i], length) == 0) {
-            return true;
+    const size_t at = (size_t)raster->channels * pixel;
+    const bool isGrey = raster->channels < 3;
+#ifndef VT_HDR_ONLY
+    if (raster->bits != 32) {
+        uint32_t numbers[3];
+        for (size_t k = 0; k < 3; ++k) {
+            const size_t from = at + (isGrey ? 0 : k);
+            numbers[k] = isOf16Bits(raster) ? ((const uint16_t*)raster->samples)[from]
+                                            : ((const uint8_t*)raster->samples)[from];
         }
+        return (float)vtLumaOfSamples(numbers[0], numbers[1], numbers[2]) /
+               (isOf16Bits(raster) ? 65535.0f : 255.0f);
     }
-    return vtIsPfm(bytes, size);
-}
-
-#ifdef VT_HDR_ONLY
-static float* loadHeights(const uint8_t* bytes, int length, int* width, int* height, int* bits)
-{
-    (void)bytes, (void)length, (void)width, (void)height, (void)bits;
-    return NULL;
-}
-#else
-/// PNG or JPEG of 8 or 16 bits: numbers as the file has them, which for heights are no colours.
-static float* loadHeights(const uint8_t* bytes, int length, int* width, int* height, int* bits)
-{
-    int channels = 0;
-    *bits = stbi_is_16_bit_from_memory(bytes, length) ? 16 : 8;
-    uint8_t* bytes8 = NULL;
-    uint16_t* bytes16 = NULL;
-    if (*bits == 8) {
-        bytes8 = stbi_load_from_memory(bytes, length, width, height, &channels, 1);
-    } else {
-        bytes16 = stbi_load_16_from_memory(bytes, length, width, height, &channels, 1);
-    }
-    float* heights = NULL;
-    if (bytes8 != NULL || bytes16 != NULL) {
-        const size_t count = (size_t)*width * (size_t)*height;
-        heights = note(vtAllocate(count, sizeof *heights));
-        for (size_t i = 0; heights != NULL && i < count; ++i) {
-            heights[i] = bytes8 != NULL ? (float)bytes8[i] / 255.0f : (float)bytes16[i] / 65535.0f;
-        }
-    }
-    stbi_image_free(bytes8);
-    stbi_image_free(bytes16);
-    return heights;
-}
 #endif
-
-static float* loadHdrHeights(const uint8_t* bytes, int length, int* width, int* height)
-{
-    float* heights = loadHdr(bytes, length, width, height);
-    const size_t count = heights != NULL ? (size_t)*width * (size_t)*height : 0;
-    for (size_t i = 0; i < count; ++i) {
-        heights[i] = vtLuma(heights + 3 * i);
-    }
-    return heights;
+    const float* samples = (const float*)raster->samples + at;
+    return isGrey ? samples[0] : vtLuma(samples);
 }
 
 vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float** heights, int* width,
@@ -357,59 +295,21 @@ vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float
     *heights = NULL;
     *width = *height = 0;
     *bits = 32;
-    name = name != NULL ? name : "";
-    if (vtIsPfm(bytes, size)) {
-        return vtDecodePfmHeights(bytes, size, name, heights, width, height, error);
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", true};
+    vtRaster raster;
+    const vtResult result = decode(&file, &raster, error);
+    if (result != vt_ok) {
+        return result;
     }
-    if (!vtIsPicture(bytes, size) || size > INT_MAX) {
-        return vtFail(error, vt_errorFormat,
-                      "relief '%.300s' %s; give heights as PNG, JPEG, Radiance HDR or PFM", name,
-                      size == 0        ? "is empty"
-                      : size > INT_MAX ? "is larger than 2 GB"
-                                       : "is no picture that can be read");
+    *heights = vtAllocate(pixelsOf(&raster), sizeof **heights);
+    for (size_t i = 0; *heights != NULL && i < pixelsOf(&raster); ++i) {
+        (*heights)[i] = heightOf(&raster, i);
     }
-    const int length = (int)size;
-    memoryWasOut = false;
-    const bool isHdr = stbi_is_hdr_from_memory(bytes, length) != 0;
-#ifdef VT_HDR_ONLY
-    if (!isHdr) {
-        return vtFail(error, vt_errorFormat,
-                      "relief '%.300s' is a PNG or JPEG that the browser could not decode; it is damaged, so "
-                      "save it again",
-                      name);
+    if (*heights != NULL) {
+        *width = raster.width;
+        *height = raster.height;
+        *bits = raster.bits;
     }
-#endif
-    int columns = 0, rows = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes, length, &columns, &rows, &channels)) {
-        return failDecode(name, error);
-    }
-    if (vtCheckHeightSides(name, columns, rows, vt_errorFormat, error) != vt_ok) {
-        return vt_errorFormat;
-    }
-    *heights = isHdr ? loadHdrHeights(bytes, length, width, height)
-                     : loadHeights(bytes, length, width, height, bits);
-    return *heights != NULL ? vtSucceed(error) : failDecode(name, error);
-}
-
-// ------------------------------------------------------------------------------------------------ writing
-
-vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
-                     size_t* size, vtError* error)
-{
-    assert(pixels != NULL && bytes != NULL && size != NULL &&
-           (channels == 1 || channels == 3 || channels == 4));
-    *bytes = NULL;
-    *size = 0;
-    if (vtCheckWritten(width, height, error) != vt_ok) {
-        return vt_errorArgument;
-    }
-    int length = 0;
-    unsigned char* encoded =
-        stbi_write_png_to_mem(pixels, width * channels, width, height, channels, &length);
-    if (encoded == NULL) {
-        return vtFail(error, vt_errorMemory, "no memory to write a PNG of %d x %d pixels", width, height);
-    }
-    *bytes = encoded;
-    *size = (size_t)length;
-    return vtSucceed(error);
+    vtDestroyRaster(&raster);
+    return *heights != NULL ? vtSucceed(error) : vtFailPictureMemory(&file, error);
 }

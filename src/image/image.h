@@ -1,5 +1,6 @@
-// Pictures in memory: PNG, JPEG and Radiance HDR, through stb. PFM: pfm.h.
-// The caller frees the buffers handed out by vtFree.
+// Pictures in memory, told apart by how they begin: PNG, JPEG, WebP and OpenEXR through their libraries,
+// which a build for the web has not (VT_HDR_ONLY), Radiance HDR and PFM. The caller frees the buffers handed
+// out by vtFree.
 #pragma once
 
 #include "vitrine.h"
@@ -15,15 +16,15 @@ float vtLinearToSrgb(float linear);
 vtResult vtLinearise(const uint8_t* samples, int channels, const char* name, int width, int height,
                      float** pixels, vtError* error);
 
-/// Decodes PNG, JPEG (sRGB, converted to linear; alpha is dropped, grey is spread) or HDR (linear as it is)
-/// to 3 floats a pixel, top row first. Numbers are made usable: NaN and negative become 0, the rest is at
-/// most 65504, the largest half float. `name` goes into the error sentence.
-/// Fails with vt_errorFormat or vt_errorMemory; then *pixels is NULL.
+/// Decodes PNG, JPEG, WebP (sRGB, converted to linear; alpha is dropped, grey is spread) or the others
+/// (linear as they are) to 3 floats a pixel, top row first. Numbers are made usable: NaN and negative become
+/// 0, the rest is at most 65504, the largest half float. `name` goes into the error sentence. Fails with
+/// vt_errorFormat or vt_errorMemory; then *pixels is NULL.
 vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, float** pixels, int* width,
                              int* height, vtError* error);
 
-/// Decodes PNG or JPEG to RGBA as the file has it (sRGB). A build without these decoders keeps a copy of the
-/// file in image->bytes instead. `name` goes into the error sentence. Fails with vt_errorFormat or
+/// Decodes PNG, JPEG or WebP to RGBA as the file has it (sRGB). A build without these decoders keeps a copy
+/// of the file in image->bytes instead. `name` goes into the error sentence. Fails with vt_errorFormat or
 /// vt_errorMemory; then *image is zeroed.
 vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage* image, vtError* error);
 
@@ -31,12 +32,12 @@ vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage
 vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
                      size_t* size, vtError* error);
 
-/// Whether this begins as a PNG, JPEG, Radiance HDR or PFM file does.
+/// Whether this begins as a file of these formats does.
 bool vtIsPicture(const void* bytes, size_t size);
 
-/// Decodes any of these to one number a pixel, top row first: PNG and JPEG as they are stored, 0 to 1, the
-/// others untouched (NaN included), colours by their luma. *bits: of a number in the file, 8, 16 or 32. Sides
-/// must be those of a relief. `name` goes into the error sentence. Fails with vt_errorFormat or
+/// Decodes any of these to one number a pixel, top row first: PNG, JPEG and WebP as they are stored, 0 to 1,
+/// the others untouched (NaN included), colours by their luma. *bits: of a number in the file, 8, 16 or 32.
+/// Sides must be those of a relief. `name` goes into the error sentence. Fails with vt_errorFormat or
 /// vt_errorMemory; then *heights is NULL.
 vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float** heights, int* width,
                          int* height, int* bits, vtError* error);

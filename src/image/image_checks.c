@@ -12,6 +12,21 @@ vtResult vtCheckHeightSides(const char* name, long width, long height, vtResult 
     return vtSucceed(error);
 }
 
+vtResult vtCheckPictureSides(const char* name, long width, long height, vtError* error)
+{
+    if (width < 1 || height < 1 || width > VT_MAX_IMAGE_SIDE || height > VT_MAX_IMAGE_SIDE) {
+        return vtFail(error, vt_errorFormat,
+                      "picture '%.300s' is %ld x %ld pixels, but a side must be 1 to %d; scale it down", name,
+                      width, height, VT_MAX_IMAGE_SIDE);
+    }
+    if (width * height > VT_MAX_IMAGE_PIXELS) {
+        return vtFail(error, vt_errorFormat,
+                      "picture '%.300s' is %ld x %ld pixels, but at most %ld are read; scale it down", name,
+                      width, height, VT_MAX_IMAGE_PIXELS);
+    }
+    return vtSucceed(error);
+}
+
 vtResult vtCheckWritten(int width, int height, vtError* error)
 {
     if (width < 1 || height < 1 || width > VT_MAX_IMAGE_SIDE || height > VT_MAX_IMAGE_SIDE) {

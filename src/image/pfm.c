@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "image/image_checks.h"
+#include "image/raster.h"
 
 /// A float's four bytes, written out so that the machine's own byte order does not matter.
 static void storeLittleEndian(uint8_t* to, float value)
@@ -94,16 +95,16 @@ bool vtIsPfm(const void* bytes, size_t size)
     return size >= 3 && octets[0] == 'P' && (octets[1] == 'F' || octets[1] == 'f') && isSpace(octets[2]);
 }
 
-static vtResult readHeader(const uint8_t* octets, size_t size, const char* name, Header* header,
-                           vtError* error)
+static vtResult readHeader(const vtPictureFile* file, Header* header, vtError* error)
 {
     char magic[4], columnsWord[16], rowsWord[16], scaleWord[32];
     size_t at = 0;
-    if (!readWord(octets, size, &at, magic, sizeof magic) ||
-        !readWord(octets, size, &at, columnsWord, sizeof columnsWord) ||
-        !readWord(octets, size, &at, rowsWord, sizeof rowsWord) ||
-        !readWord(octets, size, &at, scaleWord, sizeof scaleWord)) {
-        return vtFail(error, vt_errorFormat, "picture '%s' ends within its PFM header; write it again", name);
+    if (!readWord(file->bytes, file->size, &at, magic, sizeof magic) ||
+        !readWord(file->bytes, file->size, &at, columnsWord, sizeof columnsWord) ||
+        !readWord(file->bytes, file->size, &at, rowsWord, sizeof rowsWord) ||
+        !readWord(file->bytes, file->size, &at, scaleWord, sizeof scaleWord)) {
+        return vtFail(error, vt_errorFormat, "picture '%s' ends within its PFM header; write it again",
+                      file->name);
     }
     const double scale = strtod(scaleWord, NULL);
     *header = (Header){.channels = magic[1] == 'F' ? 3 : 1,
@@ -116,45 +117,54 @@ static vtResult readHeader(const uint8_t* octets, size_t size, const char* name,
         return vtFail(error, vt_errorFormat,
                       "picture '%s' has the PFM header '%s %s %s', but sides must be 1 to %d and the scale "
                       "not 0; write it again",
-                      name, columnsWord, rowsWord, scaleWord, VT_MAX_IMAGE_SIDE);
+                      file->name, columnsWord, rowsWord, scaleWord, VT_MAX_IMAGE_SIDE);
     }
     return vt_ok;
 }
 
-/// `channels` of each pixel: those of the header, or 1 for the luma of three. Top row first.
-static vtResult readPixels(const uint8_t* octets, size_t size, const char* name, const Header* header,
-                           int channels, float** pixels, vtError* error)
+/// Whether all pixels are there, so that a header alone takes no memory.
+static vtResult checkLength(const vtPictureFile* file, const Header* header, vtError* error)
 {
-    const size_t columns = (size_t)header->columns, rows = (size_t)header->rows;
-    const size_t stored = (size_t)header->channels, needed = columns * rows * stored * 4;
-    if (size - header->offset < needed) {
+    const size_t needed = (size_t)header->columns * (size_t)header->rows * (size_t)header->channels * 4;
+    if (file->size - header->offset < needed) {
         return vtFail(error, vt_errorFormat,
-                      "picture '%s' holds %zu bytes of pixels where %zu x %zu need %zu; it is "
+                      "picture '%s' holds %zu bytes of pixels where %ld x %ld need %zu; it is "
                       "truncated, so write it again",
-                      name, size - header->offset, columns, rows, needed);
+                      file->name, file->size - header->offset, header->columns, header->rows, needed);
     }
-    float* values = vtAllocate(columns * rows, (size_t)channels * sizeof *values);
-    if (values == NULL) {
-        return vtFail(error, vt_errorMemory, "no memory for the %zu x %zu pixels of picture '%s'", columns,
-                      rows, name);
-    }
-    float* to = values;
-    for (size_t row = rows; row-- > 0;) {
-        const uint8_t* from = octets + header->offset + row * columns * stored * 4;
-        for (size_t column = 0; column < columns; ++column, to += channels, from += 4 * stored) {
-            float pixel[3];
-            for (size_t k = 0; k < stored; ++k) {
-                pixel[k] = loadFloat(from + 4 * k, header->littleEndian);
-            }
-            if (channels == 1) {
-                to[0] = stored == 1 ? pixel[0] : vtLuma(pixel);
-            } else {
-                memcpy(to, pixel, sizeof pixel);
-            }
+    return vt_ok;
+}
+
+/// Top row first.
+static void readPixels(const vtPictureFile* file, const Header* header, float* to)
+{
+    const size_t rowFloats = (size_t)header->columns * (size_t)header->channels;
+    for (size_t row = (size_t)header->rows; row-- > 0;) {
+        const uint8_t* from = file->bytes + header->offset + row * rowFloats * 4;
+        for (size_t i = 0; i < rowFloats; ++i, from += 4) {
+            *to++ = loadFloat(from, header->littleEndian);
         }
     }
-    *pixels = values;
-    return vtSucceed(error);
+}
+
+vtResult vtDecodePfmRaster(const vtPictureFile* file, vtRaster* raster, vtError* error)
+{
+    *raster = (vtRaster){0};
+    Header header = {0};
+    vtResult result = readHeader(file, &header, error);
+    if (result == vt_ok && file->isRelief) {
+        result = vtCheckHeightSides(file->name, header.columns, header.rows, vt_errorFormat, error);
+    }
+    if (result == vt_ok) {
+        result = checkLength(file, &header, error);
+    }
+    if (result == vt_ok) {
+        result = vtBeginRaster(file, header.columns, header.rows, header.channels, 32, raster, error);
+    }
+    if (result == vt_ok) {
+        readPixels(file, &header, raster->samples);
+    }
+    return result;
 }
 
 vtResult vtDecodePfm(const void* bytes, size_t size, const char* name, float** rgb, int* width, int* height,
@@ -163,37 +173,15 @@ vtResult vtDecodePfm(const void* bytes, size_t size, const char* name, float** r
     assert(rgb != NULL && width != NULL && height != NULL && (bytes != NULL || size == 0));
     *rgb = NULL;
     *width = *height = 0;
-    name = name != NULL ? name : "";
-    Header header;
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false};
     if (!vtIsPfm(bytes, size) || ((const char*)bytes)[1] != 'F') {
         return vtFail(error, vt_errorFormat, "picture '%s' is not a colour PFM (its first word is not PF)",
-                      name);
+                      file.name);
     }
-    vtResult result = readHeader(bytes, size, name, &header, error);
-    if (result == vt_ok) {
-        result = readPixels(bytes, size, name, &header, 3, rgb, error);
-    }
-    if (result == vt_ok) {
-        *width = (int)header.columns;
-        *height = (int)header.rows;
-    }
-    return result;
-}
-
-vtResult vtDecodePfmHeights(const void* bytes, size_t size, const char* name, float** heights, int* width,
-                            int* height, vtError* error)
-{
-    Header header;
-    vtResult result = readHeader(bytes, size, name, &header, error);
-    if (result == vt_ok) {
-        result = vtCheckHeightSides(name, header.columns, header.rows, vt_errorFormat, error);
-    }
-    if (result == vt_ok) {
-        result = readPixels(bytes, size, name, &header, 1, heights, error);
-    }
-    if (result == vt_ok) {
-        *width = (int)header.columns;
-        *height = (int)header.rows;
-    }
+    vtRaster raster;
+    const vtResult result = vtDecodePfmRaster(&file, &raster, error);
+    *rgb = raster.samples;
+    *width = raster.width;
+    *height = raster.height;
     return result;
 }

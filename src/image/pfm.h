@@ -12,7 +12,3 @@ vtResult vtEncodePfm(const float* rgb, int width, int height, uint8_t** bytes, s
 /// Decodes a colour PFM of either byte order; *rgb is top row first, numbers untouched (NaN included).
 vtResult vtDecodePfm(const void* bytes, size_t size, const char* name, float** rgb, int* width, int* height,
                      vtError* error);
-
-/// Decodes a PFM, grey ("Pf") too, to one number a pixel, as vtDecodeHeights does.
-vtResult vtDecodePfmHeights(const void* bytes, size_t size, const char* name, float** heights, int* width,
-                            int* height, vtError* error);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "image/image.h"
+#include "light/cube.h"
 
 // shaders_es3/shade/environment.glsl tells the kinds apart by these numbers.
 static_assert(vt_environmentChecker == 0 && vt_environmentStudio == 1 && vt_environmentSky == 2 &&
@@ -199,6 +200,19 @@ vtResult vtCreateEnvironment(const char* name, vtEnvironment* environment, vtErr
                   name);
 }
 
+/// What was decoded, whether it is *environment's in the end or not.
+static vtResult usePicture(vtEnvironment* decoded, const char* name, vtEnvironment* environment,
+                           vtError* error)
+{
+    const vtResult result = vtUnfoldCube(decoded, name, error);
+    if (result == vt_ok) {
+        *environment = *decoded;
+    } else {
+        vtDestroyEnvironment(decoded);
+    }
+    return result;
+}
+
 vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtEnvironment* environment,
                            vtError* error)
 {
@@ -212,10 +226,7 @@ vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtE
     vtEnvironment loaded = {.kind = vt_environmentImage};
     const vtResult result =
         vtDecodeImageLinear(bytes, size, name, &loaded.pixels, &loaded.width, &loaded.height, error);
-    if (result == vt_ok) {
-        *environment = loaded;
-    }
-    return result;
+    return result == vt_ok ? usePicture(&loaded, name, environment, error) : result;
 }
 
 vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, const char* name,
@@ -228,12 +239,9 @@ vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, co
     if (rgba == NULL) {
         return vtFailMissing(error, "vtCreateImageEnvironment", "rgba");
     }
-    float* pixels = NULL;
-    const vtResult result = vtLinearise(rgba, 4, name, width, height, &pixels, error);
-    if (result == vt_ok) {
-        *environment = (vtEnvironment){vt_environmentImage, pixels, width, height};
-    }
-    return result;
+    vtEnvironment decoded = {vt_environmentImage, NULL, width, height};
+    const vtResult result = vtLinearise(rgba, 4, name, width, height, &decoded.pixels, error);
+    return result == vt_ok ? usePicture(&decoded, name, environment, error) : result;
 }
 
 vtVec3 vtEnvironment_Sample(const vtEnvironment* environment, vtVec3 direction)

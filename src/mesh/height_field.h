@@ -70,6 +70,13 @@ static inline vtVec3 vtHeightField_Corner(const vtHeightField* field, int column
                     vtHeightField_Z(field, column, row)};
 }
 
+/// Texture coordinates over a point: a picture covers the rectangle, its top row at the greatest y.
+static inline void vtHeightField_Texcoord(const vtHeightField* field, vtVec3 point, float at[2])
+{
+    at[0] = (point.x - field->left) / ((float)(field->width - 1) * field->cell);
+    at[1] = 1.0f - (point.y - field->bottom) / ((float)(field->height - 1) * field->cell);
+}
+
 /// Smooth normal at a sample: that of central differences, at the border of one-sided ones.
 vtVec3 vtHeightField_Normal(const vtHeightField* field, int column, int row);
 

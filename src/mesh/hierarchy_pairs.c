@@ -83,7 +83,9 @@ static bool sameNumbers(const float* numbers, size_t each, uint32_t a, uint32_t 
 static bool sameVertex(const vtMesh* mesh, uint32_t a, uint32_t b)
 {
     return sameNumbers(mesh->positions, 3, a, b) && sameNumbers(mesh->normals, 3, a, b) &&
-           sameNumbers(mesh->texcoords, 2, a, b) && sameNumbers(mesh->colors, 3, a, b);
+           sameNumbers(mesh->texcoords, 2, a, b) && sameNumbers(mesh->colors, 3, a, b) &&
+           sameNumbers(mesh->alphas, 1, a, b) && sameNumbers(mesh->texcoords1, 2, a, b) &&
+           sameNumbers(mesh->tangents, 4, a, b);
 }
 
 static void weldVertex(vtHierarchyBuild* build, uint32_t vertex)

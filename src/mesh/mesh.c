@@ -351,7 +351,7 @@ static void findVolume(vtMesh* mesh)
         const vtVec3 c = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 2]), origin);
         sum += (double)vtDot(vtCross(a, b), c);
     }
-    mesh->volume = fabs(sum) / 6.0;
+    mesh->volume = sum / 6.0;
 }
 
 // ------------------------------------------------------------------------------------------------- calls
@@ -377,7 +377,10 @@ static bool copyTriangles(const vtMeshDef* def, vtMesh* mesh)
     if (!copyNumbers(positionsOf(def), count, &mesh->positions) ||
         !copyNumbers(normalsOf(def), count, &mesh->normals) ||
         !copyNumbers(texcoordsOf(def), count, &mesh->texcoords) ||
-        !copyNumbers(colorsOf(def), count, &mesh->colors)) {
+        !copyNumbers(colorsOf(def), count, &mesh->colors) ||
+        !copyNumbers((Numbers){def->alphas, 1, 0}, count, &mesh->alphas) ||
+        !copyNumbers((Numbers){def->texcoords1, 2, 0}, count, &mesh->texcoords1) ||
+        !copyNumbers((Numbers){def->tangents, 4, 0}, count, &mesh->tangents)) {
         return false;
     }
     if (mesh->normals == NULL) {
@@ -531,6 +534,9 @@ void vtDestroyMesh(vtMesh* mesh)
     vtFree(mesh->innerDistances);
     vtFree(mesh->texcoords);
     vtFree(mesh->colors);
+    vtFree(mesh->alphas);
+    vtFree(mesh->texcoords1);
+    vtFree(mesh->tangents);
     vtDestroyHeightField(mesh->heights);
     if (mesh->hierarchy != NULL) {
         vtDestroyHierarchy(mesh->hierarchy);

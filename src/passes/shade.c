@@ -56,12 +56,12 @@ void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInpu
     const vtPathTargets* paths = inputs->paths;
     const vtEnvironmentBuffer* environment = inputs->environment;
     const vtBinding bindings[] = {
-        {vt_samplerPaths, &paths->paths},     {vt_samplerEnds, &paths->ends},
-        {vt_samplerLights, &paths->lights},   {vt_samplerAsides, &paths->asides},
-        {vt_samplerSurface, inputs->surface}, {vt_samplerEnvironment, &environment->picture},
-        {vt_samplerObjects, &scene->table},   {vt_samplerRecords, &scene->geometry.records},
-        {vt_samplerObjectTree, &scene->tree}, {vt_samplerAttributes, &scene->geometry.attributes},
-        {vt_samplerImages, &scene->images},   {vt_samplerLighting, &environment->lighting},
+        {vt_samplerPaths, &paths->paths},           {vt_samplerEnds, &paths->ends},
+        {vt_samplerLights, &paths->lights},         {vt_samplerAsides, &paths->asides},
+        {vt_samplerSurface, inputs->surface},       {vt_samplerEnvironment, &environment->picture},
+        {vt_samplerObjects, &scene->table},         {vt_samplerRecords, &scene->geometry.records},
+        {vt_samplerObjectTree, &scene->tree},       {vt_samplerAttributes, &scene->geometry.attributes},
+        {vt_samplerImages, &scene->images.texture}, {vt_samplerLighting, &environment->lighting},
     };
     vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
     if (host) {

@@ -4,7 +4,8 @@
 #include "shaders.h"
 #include "technique/technique.h"
 
-vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtFrame* frame)
+vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment,
+                                    const vtFrame* frame)
 {
     bool any = false, only = true;
     for (uint32_t i = 0; i < scene->objectCount && vtTechnique_Row(frame->technique)->heights; ++i) {
@@ -12,27 +13,35 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtFrame* f
         any = any || isRelief;
         only = only && isRelief;
     }
-    const bool opaque = scene->objectCount > scene->glassCount;
-    const bool one = scene->objectCount == 1 && !opaque && !any && !scene->objects[0].bothSides;
-    return (one ? vt_traceOneObject : 0) | (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
+    const bool opaque = scene->objectCount > scene->glassCount, looks = scene->hasLooks;
+    const bool one = scene->objectCount == 1 && !opaque && !any && !looks && !scene->objects[0].bothSides;
+    const bool pictures =
+        environment->kind == vt_environmentImage || ((opaque || looks) && scene->images.texture.width > 1);
+    only = only && !looks;
+    return (looks ? vt_traceLooks : 0) | (pictures ? vt_traceFootprint : 0) | (one ? vt_traceOneObject : 0) |
+           (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
            (vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? vt_traceHost : 0) |
-           (any && only ? vt_traceOnlyHeights : 0) | (vtFrame_IsStrict(frame) ? vt_traceStrict : 0) |
+           (any && only ? vt_traceOnlyHeights : 0) |
+           (vtFrame_IsStrict(frame) && !looks ? vt_traceStrict : 0) |
            (frame->countReads ? vt_traceCounted : 0);
 }
 
 static vtProgramDef describe(vtTraceVariant variant)
 {
-    const bool heights = (variant & vt_traceHeights) != 0, opaque = (variant & vt_traceOpaque) != 0;
+    const bool looks = (variant & vt_traceLooks) != 0;
+    const bool heights = (variant & vt_traceHeights) != 0, opaque = looks || (variant & vt_traceOpaque) != 0;
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
     const vtChunk* const chunks[] = {
         (variant & vt_traceCounted) != 0 ? &vtChunk_count_reads : NULL,
         (variant & vt_traceStrict) != 0 ? &vtChunk_strict : &vtChunk_keeps_first,
         one ? &vtChunk_one_object : NULL,
+        looks ? &vtChunk_with_looks : NULL,
         opaque ? &vtChunk_with_opaque : NULL,
         records ? NULL : &vtChunk_only_heights,
         host ? &vtChunk_with_backdrop : NULL,
         host ? &vtChunk_with_depth : NULL,
+        (variant & vt_traceFootprint) != 0 ? &vtChunk_footprint : NULL,
         &vtChunk_octahedral,
         &vtChunk_media,
         &vtChunk_path,
@@ -40,13 +49,15 @@ static vtProgramDef describe(vtTraceVariant variant)
         &vtChunk_objects,
         &vtChunk_optics,
         &vtChunk_cross_surface,
-        records ? &vtChunk_records : NULL,
+        records || opaque ? &vtChunk_records : NULL,
         one ? NULL : &vtChunk_object_tree,
         heights ? &vtChunk_grid_walk : NULL,
         heights ? &vtChunk_search_heights : NULL,
         &vtChunk_search_scene,
         opaque ? &vtChunk_lighting : NULL,
         opaque ? &vtChunk_shading : NULL,
+        looks ? &vtChunk_looks : NULL,
+        looks ? &vtChunk_cross_look : NULL,
         host ? &vtChunk_srgb : NULL,
         host ? &vtChunk_host_depth : NULL,
         host ? &vtChunk_backdrop : NULL,
@@ -100,7 +111,8 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
         {vt_samplerObjectTree, &scene->tree},
         {vt_samplerEnvironment, &environment->picture},
         {vt_samplerAttributes, &scene->geometry.attributes},
-        {vt_samplerImages, &scene->images},
+        {vt_samplerImages, &scene->images.texture},
+        {vt_samplerMaterials, &scene->looks},
         {vt_samplerLighting, &environment->lighting},
         {vt_samplerHeights, heights != NULL ? &heights->heights : NULL},
         {vt_samplerHeightRanges, heights != NULL ? &heights->ranges : NULL},

@@ -14,7 +14,10 @@ typedef enum vtTraceVariant {
     vt_traceStrict = 16,     ///< without Fresnel reflection
     vt_traceCounted = 32,    ///< texture reads are counted
     vt_traceHost = 64,       ///< over or before the host's picture
-    vt_traceVariantCount = 128,
+    vt_traceFootprint =
+        128,             ///< pictures are seen, the environment's or of opaque things: averaged over a pixel
+    vt_traceLooks = 256, ///< some material is not plain
+    vt_traceVariantCount = 512,
 } vtTraceVariant;
 
 /// The techniques that need no image of the scene: from the eye to the light in one drawing (trace.frag).
@@ -36,7 +39,8 @@ typedef struct vtTraceInputs {
 } vtTraceInputs;
 
 /// The variant for a frame.
-vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtFrame* frame);
+vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment,
+                                    const vtFrame* frame);
 void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs);
 vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, int width, int height,
                             vtError* error);

@@ -80,8 +80,7 @@ vtResult vtCreateReliefOfPixels(const uint8_t* pixels, int width, int height, co
                       height);
     }
     for (size_t i = 0; i < count; ++i, pixels += 4) {
-        // The luma of stb_image, so that the same file has the same heights everywhere.
-        heights[i] = (float)((77 * pixels[0] + 150 * pixels[1] + 29 * pixels[2]) >> 8) / 255.0f;
+        heights[i] = (float)vtLumaOfSamples(pixels[0], pixels[1], pixels[2]) / 255.0f;
     }
     vtReliefDef own = *def;
     own.heights = heights;

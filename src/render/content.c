@@ -41,6 +41,18 @@ static vtResult endChange(vtRenderer* renderer, vtResult result, vtError* error)
 // ---------------------------------------------------------------------------------------------- the log
 
 #ifdef VT_WITH_ABOUT
+/// What the loader noted, line by line.
+static void tellNotes(const vtRenderer* renderer, const char* notes)
+{
+    for (const char* line = notes; renderer->log != NULL && line != NULL && *line != '\0';) {
+        char text[1024];
+        const size_t length = strcspn(line, "\n");
+        snprintf(text, sizeof text, "%.*s", (int)length, line);
+        renderer->log(text, renderer->logData);
+        line += length + (line[length] != '\0');
+    }
+}
+
 static void say(const vtRenderer* renderer, const char* format, ...) VT_PRINTF(2, 3);
 static void say(const vtRenderer* renderer, const char* format, ...)
 {
@@ -82,22 +94,47 @@ static void tellOfImages(const vtRenderer* renderer, const vtImage* images, uint
     }
 }
 
+static void tellOfEnvironment(const vtRenderer* renderer, const vtEnvironment* environment)
+{
+    if (environment->kind == vt_environmentImage && environment->width != 2 * environment->height) {
+        say(renderer,
+            "the environment is %d x %d pixels, not twice as wide as high; it is stretched over the sphere",
+            environment->width, environment->height);
+    }
+}
+
 static void tellOfScene(const vtRenderer* renderer, const vtScene* scene)
 {
     if (scene->allGlass) {
         say(renderer, "no material says that it is glass, so all were made glass");
     }
     for (uint32_t i = 0; i < scene->meshCount; ++i) {
-        if (vtScene_Uses(scene, i, false)) {
+        if (vtScene_UsesSolid(scene, i)) {
             tellOfGeometry(renderer, i);
         }
     }
     tellOfImages(renderer, scene->images, scene->imageCount);
+    if (renderer->scene.images.isReduced) {
+        say(renderer, "pictures are drawn at %d x %d at most", renderer->scene.images.texture.width,
+            renderer->scene.images.texture.width);
+    }
+    if (scene->lightCount > VT_MOST_LIGHTS) {
+        say(renderer, "%u lights; the first %d are drawn", scene->lightCount, VT_MOST_LIGHTS);
+    }
+    for (uint32_t i = 0; i < renderer->scene.glassCount; ++i) {
+        const vtObjectBuffer* object = &renderer->scene.objects[i];
+        if (object->placed.thin && !object->material.thin) {
+            say(renderer, "object %u has open edges and lies inside other glass; it is drawn as a thin wall",
+                object->placed.object);
+        }
+    }
+    tellNotes(renderer, scene->notes);
 }
 #else
 #define tellOfGeometry(renderer, at)
 #define tellOfImages(renderer, images, count)
 #define tellOfScene(renderer, scene)
+#define tellOfEnvironment(renderer, environment)
 #endif
 
 // ---------------------------------------------------------------------------------------- all at once
@@ -376,6 +413,7 @@ vtResult vtRenderer_SetImages(vtRenderer* renderer, const vtImage* images, uint3
     const vtScene lent = {.images = (vtImage*)(uintptr_t)images, .imageCount = count};
     result = vtImageArray_Upload(&renderer->scene.images, &renderer->gl, &lent, error);
     if (result == vt_ok) {
+        renderer->scene.isStale = true; // its table of materials names layers
         tellOfImages(renderer, images, count);
     }
     return endChange(renderer, result, error);
@@ -388,5 +426,8 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
         return result;
     }
     result = vtEnvironmentBuffer_Set(&renderer->environment, &renderer->gl, environment, error);
+    if (result == vt_ok) {
+        tellOfEnvironment(renderer, environment);
+    }
     return endChange(renderer, result, error);
 }

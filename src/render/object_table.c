@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/math.h"
+#include "gl/material_table.h"
 #include "scene/camera.h"
 #include "shaders_es3/common/constants.h"
 #include "technique/technique.h"
@@ -22,19 +23,25 @@ static void writeBox(const vtPlacedObject* placed, float share, uint32_t* words)
     writeNumbers(words, VT_OBJECT_HIGH, high.x + margin, high.y + margin, high.z + margin, 0.0f);
 }
 
-static void writeMaterial(const vtObjectBuffer* object, float ior, uint32_t* words)
+/// `ior`: of all glass; 0: each object's own. `row`: of the table of materials.
+static void writeMaterial(const vtObjectBuffer* object, float ior, uint32_t row, uint32_t* words)
 {
     const vtMaterial* material = &object->material;
     const vtVec3 absorption = object->placed.absorption, emissive = material->emissive;
     const vtVec3 color = material->opaque ? material->baseColor : material->tint;
-    writeNumbers(words, VT_OBJECT_GLASS, ior > 0.0f ? ior : material->ior, absorption.x, absorption.y,
-                 absorption.z);
+    const float own =
+        material->ior > 0.0f ? material->ior : 1.0f; // one that reflects everything bends nothing
+    writeNumbers(words, VT_OBJECT_GLASS, ior > 0.0f && !material->opaque ? ior : own, absorption.x,
+                 absorption.y, absorption.z);
     writeNumbers(words, VT_OBJECT_COLOR, color.x, color.y, color.z, 0.0f);
     words[4 * VT_OBJECT_COLOR + 3] = object->firstAttribute;
-    writeNumbers(words, VT_OBJECT_SURFACE, material->metallic, material->roughness, material->checker, 0.0f);
+    writeNumbers(words, VT_OBJECT_SURFACE, material->metallic, material->roughness, material->checker,
+                 (float)object->placed.body);
     writeNumbers(words, VT_OBJECT_EMISSIVE, emissive.x, emissive.y, emissive.z, 0.0f);
-    words[4 * VT_OBJECT_IMAGES] = (uint32_t)material->baseColorImage; // VT_NO_TRIANGLE for -1
-    words[4 * VT_OBJECT_IMAGES + 1] = (uint32_t)material->metallicRoughnessImage;
+    words[4 * VT_OBJECT_EMISSIVE + 3] = row;
+    words[4 * VT_OBJECT_IMAGES] = object->colorLayer;
+    words[4 * VT_OBJECT_IMAGES + 1] = object->roughLayer;
+    words[4 * VT_OBJECT_IMAGES + 2] = object->firstMore;
 }
 
 /// A relief's heights are in its mesh's own coordinates, its records are from the middle of the mesh.
@@ -82,7 +89,7 @@ void vtWriteObjectTable(const vtSceneBuffer* scene, const vtFrame* frame, const 
         // A little more than the box: a ray that starts on its side is within it. Layers are widened by whole
         // texels (search_layered.glsl).
         writeBox(&object->placed, peeled ? 0.0f : 1e-5f, words);
-        writeMaterial(object, frame->ior, words);
+        writeMaterial(object, frame->ior, vtMaterialTable_First(scene->lightCount) + i, words);
         writeRecords(geometry, object->bothSides, words);
         if (byHeights) {
             const float cell = geometry->heights.cell;

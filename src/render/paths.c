@@ -31,7 +31,8 @@ void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProg
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
     if (row->traces) {
-        vtTracePass_Start(&renderer->trace, gl, vtChooseTraceVariant(&renderer->scene, frame), programs);
+        vtTracePass_Start(&renderer->trace, gl,
+                          vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame), programs);
     } else {
         vtRefractPass_Start(&renderer->refract, gl, frame->technique, variant, frame->countReads, programs);
         vtShadePass_Start(&renderer->shade, gl, hasOpaque(renderer), row->surface, vtFrame_HasHost(frame),
@@ -54,6 +55,7 @@ void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProg
     if (vtFrame_IsOverlay(frame)) {
         vtOverlayPass_Start(&renderer->overlay, gl, row->surface, programs);
     }
+    renderer->lacksShaders = programs->lacksShaders;
 }
 
 /// Targets of the techniques that search layers, or blend.
@@ -92,7 +94,8 @@ vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, in
     const vtGL* gl = &renderer->gl;
     vtResult result =
         vtTechnique_Row(frame->technique)->traces
-            ? vtTracePass_Resize(&renderer->trace, gl, vtChooseTraceVariant(&renderer->scene, frame),
+            ? vtTracePass_Resize(&renderer->trace, gl,
+                                 vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame),
                                  frame->width, frame->height, error)
             : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
     if (result == vt_ok && hasOpaque(renderer)) {
@@ -181,7 +184,8 @@ void vtRenderer_DrawPaths(vtRenderer* renderer, const vtFrame* frame, bool layer
         return;
     }
     renderer->gl.BindVertexArray(renderer->emptyVertexArray);
-    vtTracePass_Draw(&renderer->trace, &renderer->gl, vtChooseTraceVariant(&renderer->scene, frame),
+    vtTracePass_Draw(&renderer->trace, &renderer->gl,
+                     vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame),
                      &(vtTraceInputs){.scene = &renderer->scene,
                                       .environment = &renderer->environment,
                                       .host = &renderer->host,

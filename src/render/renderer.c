@@ -4,6 +4,7 @@
 #include "render/renderer.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/about.h"
 #include "base/error.h"
@@ -11,6 +12,7 @@
 #include "base/memory.h"
 #include "gl/state.h"
 #include "render/object_table.h"
+#include "shaders.h"
 #include "technique/technique.h"
 
 vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** out, vtError* error)
@@ -75,6 +77,17 @@ void vtDestroyRenderer(vtRenderer* renderer)
     gl->DeleteBuffers(1, &renderer->uniformBuffer);
     gl->DeleteVertexArrays(1, &renderer->emptyVertexArray);
     vtFree(renderer);
+}
+
+vtResult vtRenderer_SetLaterShaders(vtRenderer* renderer, const char* file, vtError* error)
+{
+    if (strcmp(file, VT_LATER_MARK) != 0) {
+        return vtFail(error, vt_errorFormat,
+                      "vitrine-shaders.txt is not of the same build as vitrine-core.wasm; serve the two that "
+                      "came together");
+    }
+    renderer->gl.laterShaders = file + strlen(file) + 1;
+    return vtSucceed(error);
 }
 
 static void drawStraight(vtRenderer* renderer, const vtFrame* frame)

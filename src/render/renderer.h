@@ -33,6 +33,7 @@ struct vtRenderer {
     vtOverlayPass overlay;
     vtHostPicture host; // of the frame
     bool nearIsGreater; // in its depth buffer
+    bool lacksShaders;  // the last frame asked for does, see vtRenderer_SetLaterShaders
     // What there is to draw, and the handles of its geometry and instances.
     vtSceneBuffer scene;
     vtSlots geometrySlots, instanceSlots;
@@ -48,6 +49,10 @@ struct vtRenderer {
 
 /// Fails with vt_errorArgument where there is no renderer or no other thing that the call needs.
 vtResult vtCheckGiven(const vtRenderer* renderer, const void* thing, const char* what, vtError* error);
+
+/// Of a page, which loads some shaders once a frame lacks them: the file that cmake/EmbedShaders.cmake made,
+/// with 0 for each form feed and one more at its end. The caller keeps it. Fails where it is another build's.
+vtResult vtRenderer_SetLaterShaders(vtRenderer* renderer, const char* file, vtError* error);
 
 /// The frame as it is drawn: GL's state taken over, objects placed, settings resolved, the camera in the
 /// scene buffer's world. Fails with a sentence where it cannot be drawn.

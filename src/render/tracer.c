@@ -12,6 +12,7 @@
 #include "mesh/mesh_triangle.h"
 #include "relief/height_trace.h"
 #include "scene/camera.h"
+#include "scene/material.h"
 #include "scene/media.h"
 #include "scene/objects.h"
 
@@ -203,14 +204,16 @@ static bool findNearest(const vtTracer* tracer, const vtMedia* media, vtVec3 ori
     *meeting = (Meeting){.object = count, .spot.distance = FLT_MAX, .also = count};
     for (uint32_t i = 0; i < count; ++i) {
         const bool isOpaque = i >= tracer->glassCount;
-        const int sides = isOpaque || start <= 0.0f ? 3 : vtMedia_Holds(media, i + 1) ? 2 : 1;
+        const vtPlacedObject* placed = &tracer->placed[i];
+        const bool anySide = isOpaque || start <= 0.0f || placed->thin;
+        const int sides = anySide ? 3 : vtMedia_Holds(media, placed->body + 1) ? 2 : 1;
         Spot spot;
         if (!traceObject(tracer, i, origin, direction, start, sides, &spot)) {
             continue;
         }
         opaque = isOpaque ? fminf(opaque, spot.distance) : opaque;
         const bool isSame = fabsf(spot.distance - meeting->spot.distance) <= tracer->same;
-        if (isSame && !isOpaque) {
+        if (isSame && !isOpaque && !placed->thin) {
             meeting->also = i; // touching glass is crossed at once
         } else if (!isSame && spot.distance < meeting->spot.distance) {
             *meeting = (Meeting){.object = i, .spot = spot, .also = count};
@@ -224,7 +227,9 @@ static bool findNearest(const vtTracer* tracer, const vtMedia* media, vtVec3 ori
 
 static float indexOf(const vtTracer* tracer, uint32_t id)
 {
-    return id == 0 ? 1.0f : tracer->ior > 0.0f ? tracer->ior : tracer->placed[id - 1].material->ior;
+    return id == 0              ? 1.0f
+           : tracer->ior > 0.0f ? tracer->ior
+                                : vtMaterial_Index(tracer->placed[id - 1].material);
 }
 
 /// Takes the path through a surface of glass: an event, where indices differ, or straight on. False where an
@@ -236,15 +241,18 @@ static bool cross(const vtTracer* tracer, const Meeting* meeting, int maxEvents,
     const vtVec3 G = toWorld(placed, flatNormal(placed->mesh, &meeting->spot));
     const vtVec3 N = toWorld(placed, smoothNormal(placed->mesh, &meeting->spot));
     const vtVec3 I = *direction;
+    if (placed->thin) { // straight on, and no event
+        return true;
+    }
     // The surface says on which side of it the path is.
     const bool leaving = vtDot(G, I) > 0.0f;
-    if (leaving != vtMedia_Holds(media, meeting->object + 1)) {
-        vtMedia_Toggle(media, meeting->object + 1);
+    if (leaving != vtMedia_Holds(media, placed->body + 1)) {
+        vtMedia_Toggle(media, placed->body + 1);
     }
     vtMedia next = *media;
-    vtMedia_Toggle(&next, meeting->object + 1);
+    vtMedia_Toggle(&next, placed->body + 1);
     if (meeting->also < tracer->glassCount) {
-        vtMedia_Toggle(&next, meeting->also + 1);
+        vtMedia_Toggle(&next, tracer->placed[meeting->also].body + 1);
     }
     const float eta = indexOf(tracer, vtMedia_Top(media)) / indexOf(tracer, vtMedia_Top(&next));
     if (eta == 1.0f) {

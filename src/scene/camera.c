@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "scene/boxes.h"
 #include "scene/objects.h"
 
 // How far the default view looks down, and round to the right; that of the truth images.
@@ -118,10 +119,12 @@ vtCamera vtMakeCamera(const vtFrame* frame)
     const float aspect = (float)frame->width / (float)frame->height;
     const float tangent = tanf(frame->view.fovY * VT_PI / 360.0f);
     vtCamera camera = vtMakeViewCamera(&frame->view);
-    camera.low[0] = -tangent * aspect;
-    camera.low[1] = -tangent;
-    camera.high[0] = tangent * aspect;
-    camera.high[1] = tangent;
+    const float half = frame->orthographicHeight > 0.0f ? 0.5f * frame->orthographicHeight : tangent;
+    camera.orthographic = frame->orthographicHeight > 0.0f;
+    camera.low[0] = -half * aspect;
+    camera.low[1] = -half;
+    camera.high[0] = half * aspect;
+    camera.high[1] = half;
     camera.clip[0] = -1.0f; // no plane is given, and nothing is far
     camera.clip[1] = -1.0f;
     camera.farthest = 3e38f;
@@ -214,19 +217,50 @@ static float distanceToShow(const vtMesh* mesh, const vtTransform* toWorld, vtVe
     return distance;
 }
 
+/// An opaque object that is no part of what is looked at: a floor, a wall, a room.
+static bool isBackdrop(const vtScene* scene, const vtObject* object, vtVec3 glassLow, vtVec3 glassHigh)
+{
+    const vtMesh* mesh = &scene->meshes[object->mesh];
+    const vtVec3 size = vtSub(mesh->boundsMax, mesh->boundsMin);
+    const float(*r)[4] = object->toWorld.rows;
+    const float x = size.x * vtLength((vtVec3){r[0][0], r[1][0], r[2][0]}),
+                y = size.y * vtLength((vtVec3){r[0][1], r[1][1], r[2][1]}),
+                z = size.z * vtLength((vtVec3){r[0][2], r[1][2], r[2][2]});
+    const float diagonal = vtLength((vtVec3){x, y, z}), glass = vtLength(vtSub(glassHigh, glassLow));
+    const bool isFlat = fminf(x, fminf(y, z)) < 0.02f * diagonal;
+    vtVec3 low, high;
+    vtBoundBox(&object->toWorld, mesh->boundsMin, mesh->boundsMax, &low, &high);
+    const bool isAround = low.x <= glassLow.x && low.y <= glassLow.y && low.z <= glassLow.z &&
+                          high.x >= glassHigh.x && high.y >= glassHigh.y && high.z >= glassHigh.z;
+    return diagonal > glass * (isFlat ? 1.0f : isAround ? 6.0f : 16.0f);
+}
+
 vtView vtViewOfScene(const vtScene* scene, float fovY, float aspect)
 {
-    vtVec3 low, high;
-    vtScene_Bounds(scene, &low, &high);
+    vtVec3 glassLow, glassHigh;
+    vtScene_Bounds(scene, &glassLow, &glassHigh);
+    vtVec3 low = glassLow, high = glassHigh;
+    const bool anyGlass = scene != NULL && vtScene_HasGlass(scene);
+    const uint32_t count = scene != NULL ? scene->objectCount : 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        const vtObject* object = vtScene_Object(scene, i);
+        vtVec3 a, b;
+        if (object != NULL && !isBackdrop(scene, object, glassLow, glassHigh)) {
+            const vtMesh* mesh = &scene->meshes[object->mesh];
+            vtBoundBox(&object->toWorld, mesh->boundsMin, mesh->boundsMax, &a, &b);
+            low = (vtVec3){fminf(low.x, a.x), fminf(low.y, a.y), fminf(low.z, a.z)};
+            high = (vtVec3){fmaxf(high.x, b.x), fmaxf(high.y, b.y), fmaxf(high.z, b.z)};
+        }
+    }
     const vtVec3 centre = vtScale(vtAdd(low, high), 0.5f), direction = vtNormalize(defaultDirection);
     vtView view = {vtAdd(centre, direction), centre, fovY};
     const vtCamera camera = vtMakeViewCamera(&view);
     const float tangentY = 0.9f * tanf(view.fovY * VT_PI / 360.0f), tangentX = tangentY * aspect;
-    const bool anyGlass = scene != NULL && vtScene_HasGlass(scene);
     float distance = 0.0f;
-    for (uint32_t i = 0; scene != NULL && i < scene->objectCount; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
         const vtObject* object = vtScene_Object(scene, i);
-        if (object != NULL && (!anyGlass || !scene->materials[object->material].opaque)) {
+        if (object != NULL && (!anyGlass || !scene->materials[object->material].opaque ||
+                               !isBackdrop(scene, object, glassLow, glassHigh))) {
             distance = fmaxf(distance, distanceToShow(&scene->meshes[object->mesh], &object->toWorld, centre,
                                                       &camera, tangentX, tangentY));
         }

@@ -28,6 +28,8 @@ static const vtObjectKeyInfo keys[vt_keyCount] = {
     [vt_keyMetallic] = {"metallic", 1, 1, 0, 1, 0},
     [vt_keyRoughness] = {"roughness", 1, 1, 0, 1, 0},
     [vt_keyChecker] = {"checker", 0, 1, 0, 1000, 8},
+    [vt_keyThin] = {"thin", 0, 0, 0, 0, 0},
+    [vt_keyImage] = {"image", 0, 0, 0, 0, 0},
 };
 
 const vtObjectKeyInfo* vtObjectKey_Info(vtObjectKey key)
@@ -69,7 +71,7 @@ static void listKeys(char* text, size_t size)
 
 static vtResult failKey(const Text* text, const char* key, vtError* error)
 {
-    char names[256];
+    char names[320];
     listKeys(names, sizeof names);
     return vtFail(error, vt_errorArgument,
                   "%s '%.200s' has the key '%.60s', which is unknown; the keys are %s", text->option,
@@ -107,6 +109,19 @@ static bool readNumber(const char* text, double* number)
     char* end;
     *number = strtod(text, &end);
     return end != text && *end == '\0' && isfinite(*number);
+}
+
+/// The value of the key that has text.
+static vtResult storeText(const Text* text, const char* value, vtObjectSpec* spec, vtError* error)
+{
+    if (value == NULL || *value == '\0' || strlen(value) >= sizeof spec->image) {
+        return vtFail(error, vt_errorArgument,
+                      "%s '%.200s': image is '%.100s'; it must be the path of a .png or .jpg", text->option,
+                      text->whole, value != NULL ? value : "");
+    }
+    strcpy(spec->image, value);
+    spec->given |= 1u << vt_keyImage;
+    return vt_ok;
 }
 
 /// Reads the value, numbers between commas; NULL: there was no '='.
@@ -149,7 +164,7 @@ static vtResult storeValue(const Text* text, vtObjectKey key, const char* value,
 static const char* findKeys(const char* text)
 {
     const char* colon = strrchr(text, ':');
-    return colon == NULL || strchr(colon, '/') != NULL ? NULL : colon + 1;
+    return colon == NULL || colon[strcspn(colon, "=/")] == '/' ? NULL : colon + 1;
 }
 
 static vtResult parsePart(const Text* text, char* part, vtObjectSpec* spec, vtError* error)
@@ -162,8 +177,9 @@ static vtResult parsePart(const Text* text, char* part, vtObjectSpec* spec, vtEr
     while (key < vt_keyCount && strcmp(keys[key].name, part) != 0) {
         ++key;
     }
-    return key == vt_keyCount ? failKey(text, part, error)
-                              : storeValue(text, (vtObjectKey)key, value, spec, error);
+    return key == vt_keyCount   ? failKey(text, part, error)
+           : key == vt_keyImage ? storeText(text, value, spec, error)
+                                : storeValue(text, (vtObjectKey)key, value, spec, error);
 }
 
 /// Cuts the keys into parts: at a comma, unless a number follows that goes on with a value.
@@ -235,9 +251,10 @@ static void copyNumber(const vtObjectSpec* spec, vtObjectKey key, float* number)
 
 static void applyToMaterial(const vtObjectSpec* spec, vtMaterial* material)
 {
-    const bool opaque =
-        isGiven(spec, vt_keyOpaque) || isGiven(spec, vt_keyColour) || isGiven(spec, vt_keyChecker);
+    const bool opaque = isGiven(spec, vt_keyOpaque) || isGiven(spec, vt_keyColour) ||
+                        isGiven(spec, vt_keyChecker) || isGiven(spec, vt_keyImage);
     material->opaque = (material->opaque || opaque) && !isGiven(spec, vt_keyGlass);
+    material->thin = !material->opaque && (material->thin || isGiven(spec, vt_keyThin));
     copyNumber(spec, vt_keyIor, &material->ior);
     copyColor(spec, vt_keyTint, &material->tint);
     copyColor(spec, vt_keyAbsorb, &material->attenuationColor);
@@ -251,10 +268,10 @@ static void applyToMaterial(const vtObjectSpec* spec, vtMaterial* material)
     copyNumber(spec, vt_keyChecker, &material->checker);
     // What is given takes the place of the file's pictures.
     if (isGiven(spec, vt_keyColour)) {
-        material->baseColorImage = -1;
+        material->maps[vt_mapBaseColor] = vtDefaultMap();
     }
     if (isGiven(spec, vt_keyMetallic) || isGiven(spec, vt_keyRoughness)) {
-        material->metallicRoughnessImage = -1;
+        material->maps[vt_mapMetallicRoughness] = vtDefaultMap();
     }
 }
 

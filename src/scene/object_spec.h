@@ -25,6 +25,8 @@ typedef enum vtObjectKey {
     vt_keyMetallic,
     vt_keyRoughness,
     vt_keyChecker,
+    vt_keyThin,
+    vt_keyImage, ///< the only one whose value is text
     vt_keyCount,
 } vtObjectKey;
 
@@ -32,6 +34,7 @@ typedef struct vtObjectSpec {
     char name[vt_objectNameRoom];  ///< of a shape, pattern or file
     unsigned given;                ///< bit set of vtObjectKey
     double values[vt_keyCount][3]; ///< of those given
+    char image[1024];              ///< path of a picture, where vt_keyImage is given
 } vtObjectSpec;
 
 typedef struct vtObjectKeyInfo {

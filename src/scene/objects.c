@@ -8,6 +8,8 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "mesh/height_field.h"
+#include "scene/boxes.h"
+#include "scene/material.h"
 
 /// "object 3 ('cube')", for sentences.
 static void nameObject(const vtScene* scene, uint32_t index, char* text, size_t size)
@@ -51,22 +53,7 @@ static bool isFinite(const vtTransform* t)
 /// Six times the volume, without sign.
 static double volumeOf(const vtPlacedObject* placed)
 {
-    return 6.0 * placed->mesh->volume * fabs((double)determinant(&placed->toWorld));
-}
-
-/// The box of the eight corners of the box from a to b, own coordinates.
-static void boundObject(vtPlacedObject* placed, vtVec3 a, vtVec3 b)
-{
-    placed->low = (vtVec3){FLT_MAX, FLT_MAX, FLT_MAX};
-    placed->high = (vtVec3){-FLT_MAX, -FLT_MAX, -FLT_MAX};
-    for (int corner = 0; corner < 8; ++corner) {
-        const vtVec3 p = {corner & 1 ? b.x : a.x, corner & 2 ? b.y : a.y, corner & 4 ? b.z : a.z};
-        const vtVec3 q = vtTransformPoint(&placed->toWorld, p);
-        placed->low =
-            (vtVec3){fminf(placed->low.x, q.x), fminf(placed->low.y, q.y), fminf(placed->low.z, q.z)};
-        placed->high =
-            (vtVec3){fmaxf(placed->high.x, q.x), fmaxf(placed->high.y, q.y), fmaxf(placed->high.z, q.z)};
-    }
+    return 6.0 * fabs(placed->mesh->volume) * fabs((double)determinant(&placed->toWorld));
 }
 
 static float absorb(float color, float distance)
@@ -84,10 +71,11 @@ vtResult vtCheckObject(const vtObject* object, const vtMaterial* material, const
         return vtFail(error, vt_errorGeometry,
                       "scene: %s is scaled to nothing along an axis; give it a scale other than 0", name);
     }
-    if (!material->opaque && !(material->ior >= 0.25f && material->ior <= 4.0f)) {
-        return vtFail(error, vt_errorArgument,
-                      "scene: %s has an index of refraction of %g; it must be from 0.25 to 4", name,
-                      (double)material->ior);
+    const char* what;
+    float value, least, most;
+    if (!vtMaterial_Check(material, &what, &value, &least, &most)) {
+        return vtFail(error, vt_errorArgument, "scene: %s has %s of %g; it must be from %g to %g", name, what,
+                      (double)value, (double)least, (double)most);
     }
     return vt_ok;
 }
@@ -113,10 +101,11 @@ static vtResult checkContents(const vtScene* scene, uint32_t index, vtError* err
                       name);
     }
     const vtMaterial* material = &scene->materials[object->material];
-    if (material->opaque &&
-        (!hasImage(scene, material->baseColorImage) || !hasImage(scene, material->metallicRoughnessImage))) {
-        return vtFail(error, vt_errorGeometry, "scene: %s has images %d and %d, but there are %u", name,
-                      material->baseColorImage, material->metallicRoughnessImage, scene->imageCount);
+    for (int use = 0; use < vt_mapCount; ++use) {
+        if (!hasImage(scene, material->maps[use].image)) {
+            return vtFail(error, vt_errorGeometry, "scene: %s has an image %d, but there are %u", name,
+                          material->maps[use].image, scene->imageCount);
+        }
     }
     return vt_ok;
 }
@@ -148,8 +137,11 @@ static vtResult placeObject(const vtScene* scene, uint32_t index, vtPlacedObject
         .toObject = invert(&object->toWorld, scale),
         .absorption = {absorb(color.x, distance), absorb(color.y, distance), absorb(color.z, distance)},
         .mirrored = scale < 0.0f,
+        .plain = scene->lightCount == 0 &&
+                 vtMaterial_IsPlain(material, scene->meshes[object->mesh].colors != NULL),
     };
-    boundObject(placed, placed->mesh->boundsMin, placed->mesh->boundsMax);
+    vtBoundBox(&placed->toWorld, placed->mesh->boundsMin, placed->mesh->boundsMax, &placed->low,
+               &placed->high);
     return vt_ok;
 }
 
@@ -203,24 +195,28 @@ static bool liesInside(const vtPlacedObject* inner, const vtPlacedObject* outer)
            inner->high.x < outer->high.x && inner->high.y < outer->high.y && inner->high.z < outer->high.z;
 }
 
-static vtResult checkVolumes(const vtScene* scene, const vtPlacedObject* placed, uint32_t glassCount,
-                             vtError* error)
+/// Of objects of one body the first stands for all.
+static void findBodies(const vtScene* scene, vtPlacedObject* placed, uint32_t glassCount)
 {
     for (uint32_t i = 0; i < glassCount; ++i) {
-        for (uint32_t k = 0; k < glassCount && placed[i].mesh->openEdgeCount > 0; ++k) {
-            if (k != i && liesInside(&placed[i], &placed[k])) {
-                char inner[96], outer[96];
-                nameObject(scene, placed[i].object, inner, sizeof inner);
-                nameObject(scene, placed[k].object, outer, sizeof outer);
-                return vtFail(
-                    error, vt_errorGeometry,
-                    "scene: %s has no volume (%u open edges) and lies inside %s, so nothing says what "
-                    "is between them; close it or make it opaque",
-                    inner, placed[i].mesh->openEdgeCount, outer);
-            }
+        const uint32_t body = scene->objects[placed[i].object].body;
+        uint32_t first = body == 0 ? i : 0;
+        while (first < i && scene->objects[placed[first].object].body != body) {
+            ++first;
+        }
+        placed[i].body = first;
+    }
+}
+
+static void findThinWalls(const vtScene* scene, vtPlacedObject* placed, uint32_t glassCount)
+{
+    for (uint32_t i = 0; i < glassCount; ++i) {
+        placed[i].thin = placed[i].material->thin;
+        const bool open = placed[i].mesh->openEdgeCount > 0 && scene->objects[placed[i].object].body == 0;
+        for (uint32_t k = 0; k < glassCount && open && !placed[i].thin; ++k) {
+            placed[i].thin = k != i && !placed[k].material->thin && liesInside(&placed[i], &placed[k]);
         }
     }
-    return vt_ok;
 }
 
 vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error)
@@ -268,8 +264,10 @@ vtResult vtPlaceShapes(const vtScene* scene, vtPlacedObject** placed, uint32_t* 
         qsort(ranks, count, sizeof *ranks, compareRanks);
         for (uint32_t i = 0; i < count; ++i) {
             (*placed)[i] = ranks[i].placed;
+            (*placed)[i].body = i;
         }
-        result = checkVolumes(scene, *placed, *glassCount, error);
+        findBodies(scene, *placed, *glassCount);
+        findThinWalls(scene, *placed, *glassCount);
     }
     vtFree(ranks);
     if (result != vt_ok) {
@@ -290,6 +288,18 @@ bool vtScene_Uses(const vtScene* scene, uint32_t mesh, bool opaque)
     return used;
 }
 
+bool vtScene_UsesSolid(const vtScene* scene, uint32_t mesh)
+{
+    bool used = false;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtObject* object = vtScene_Object(scene, i);
+        used =
+            used || (object != NULL && object->mesh == mesh && object->body == 0 &&
+                     !scene->materials[object->material].opaque && !scene->materials[object->material].thin);
+    }
+    return used;
+}
+
 void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world)
 {
     const float to[3] = {world.x, world.y, world.z};
@@ -299,17 +309,19 @@ void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world)
                        (double)r[2] * (double)own.z + (double)r[3] - (double)to[row]);
     }
     placed->toObject = invert(&placed->toWorld, determinant(&placed->toWorld));
-    boundObject(placed, vtSub(placed->mesh->boundsMin, own), vtSub(placed->mesh->boundsMax, own));
+    vtBoundBox(&placed->toWorld, vtSub(placed->mesh->boundsMin, own), vtSub(placed->mesh->boundsMax, own),
+               &placed->low, &placed->high);
 }
 
 uint32_t vtScene_Relief(const vtScene* scene)
 {
-    uint32_t mesh = 0;
-    while (mesh < scene->meshCount && scene->meshes != NULL &&
-           (scene->meshes[mesh].heights == NULL || !vtScene_Uses(scene, mesh, false))) {
-        ++mesh;
+    uint32_t glass = scene->meshCount, opaque = scene->meshCount;
+    for (uint32_t i = scene->meshCount; i > 0 && scene->meshes != NULL; --i) {
+        const bool isRelief = scene->meshes[i - 1].heights != NULL;
+        glass = isRelief && vtScene_Uses(scene, i - 1, false) ? i - 1 : glass;
+        opaque = isRelief && vtScene_Uses(scene, i - 1, true) ? i - 1 : opaque;
     }
-    return mesh;
+    return glass < scene->meshCount ? glass : opaque;
 }
 
 bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point)
@@ -363,11 +375,11 @@ void vtScene_Bounds(const vtScene* scene, vtVec3* boundsMin, vtVec3* boundsMax)
         if (object == NULL || (anyGlass && scene->materials[object->material].opaque)) {
             continue;
         }
-        vtPlacedObject placed = {.mesh = &scene->meshes[object->mesh], .toWorld = object->toWorld};
-        boundObject(&placed, placed.mesh->boundsMin, placed.mesh->boundsMax);
-        low = (vtVec3){fminf(low.x, placed.low.x), fminf(low.y, placed.low.y), fminf(low.z, placed.low.z)};
-        high = (vtVec3){fmaxf(high.x, placed.high.x), fmaxf(high.y, placed.high.y),
-                        fmaxf(high.z, placed.high.z)};
+        vtVec3 a, b;
+        const vtMesh* mesh = &scene->meshes[object->mesh];
+        vtBoundBox(&object->toWorld, mesh->boundsMin, mesh->boundsMax, &a, &b);
+        low = (vtVec3){fminf(low.x, a.x), fminf(low.y, a.y), fminf(low.z, a.z)};
+        high = (vtVec3){fmaxf(high.x, b.x), fmaxf(high.y, b.y), fmaxf(high.z, b.z)};
     }
     if (low.x <= high.x) { // else it has no object
         *boundsMin = low;

@@ -30,6 +30,10 @@ typedef struct vtPlacedObject {
     const vtMesh* mesh;
     const vtMaterial* material;
     uint32_t meshIndex, object; ///< in the scene
+    uint32_t body;              ///< rank of the first object of its body
+    bool plain;                 ///< its material is (scene/material.h), and there are no lights
+    bool
+        thin; ///< glass: a thin wall, by its material or because it has no volume and lies inside other glass
     vtTransform toWorld, toObject;
     vtVec3 low, high;  ///< box in the world
     vtVec3 absorption; ///< glass: exp(-absorption * distance) is left of light, per world unit
@@ -49,7 +53,8 @@ static inline const vtObject* vtScene_Object(const vtScene* scene, uint32_t inde
 /// The scene's objects: glass by falling precedence, then what is opaque. Where objects of glass overlap, the
 /// first of them counts: an object's number here is its rank (scene/media.h). The order does not depend on
 /// the scene's. From vtAllocate, scene->objectCount of them; *glassCount of these are glass. They point
-/// into the scene. Fails as vtValidateScene does, and with vt_errorMemory.
+/// into the scene. An open sheet of glass inside other glass becomes a thin wall: nothing says what is on
+/// either side of it. Fails as vtValidateScene does, and with vt_errorMemory.
 vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error);
 
 /// The same of a scene whose meshes are known by counts, box and volume alone, and whose images are
@@ -67,8 +72,11 @@ void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world);
 /// Whether an object made of the mesh is opaque, or else one that is not.
 bool vtScene_Uses(const vtScene* scene, uint32_t mesh, bool opaque);
 
-/// The first mesh that is a relief and glass, the one that technique `heightfield` draws by its heights;
-/// meshCount: there is none.
+/// Whether an object made of the mesh is glass that bounds a body by itself.
+bool vtScene_UsesSolid(const vtScene* scene, uint32_t mesh);
+
+/// The first mesh that is a relief and glass, else the first opaque one: technique `heightfield` draws it by
+/// its heights; meshCount: there is none.
 uint32_t vtScene_Relief(const vtScene* scene);
 
 /// Whether any of its objects is glass.

@@ -7,19 +7,6 @@
 #include "mesh/height_field.h"
 #include "scene/objects.h"
 
-vtMaterial vtDefaultMaterial(void)
-{
-    return (vtMaterial){
-        .ior = 1.5f,
-        .tint = {1.0f, 1.0f, 1.0f},
-        .attenuationColor = {1.0f, 1.0f, 1.0f},
-        .baseColor = {0.8f, 0.8f, 0.8f},
-        .roughness = 1.0f,
-        .baseColorImage = -1,
-        .metallicRoughnessImage = -1,
-    };
-}
-
 vtTransform vtIdentityTransform(void)
 {
     return (vtTransform){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
@@ -114,6 +101,19 @@ vtResult vtCreateMeshScene(vtMesh* mesh, const vtMaterial* material, vtScene* sc
     return result;
 }
 
+const char* vtWallsName(int index)
+{
+    static const char* const names[] = {"auto", "thin", "solid"};
+    return index >= 0 && index < 3 ? names[index] : NULL;
+}
+
+void vtScene_SetWalls(vtScene* scene, vtWalls walls)
+{
+    for (uint32_t i = 0; scene != NULL && walls != vt_wallsAuto && i < scene->materialCount; ++i) {
+        scene->materials[i].thin = !scene->materials[i].opaque && walls == vt_wallsThin;
+    }
+}
+
 static vtTransform multiply(const vtTransform* a, const vtTransform* b)
 {
     vtTransform product;
@@ -133,6 +133,24 @@ static bool isTooLong(uint32_t count, uint32_t more)
     return (uint64_t)count + more > INT32_MAX;
 }
 
+/// Adds the other's lines to the scene's; false where memory is short.
+static bool appendNotes(vtScene* scene, const vtScene* other)
+{
+    if (other->notes == NULL) {
+        return true;
+    }
+    const size_t before = scene->notes != NULL ? strlen(scene->notes) : 0, more = strlen(other->notes);
+    char* grown = vtReallocate(scene->notes, before + more + 2, 1);
+    if (grown != NULL) {
+        scene->notes = grown;
+        if (before > 0) {
+            grown[before] = '\n';
+        }
+        memcpy(grown + before + (before > 0 ? 1 : 0), other->notes, more + 1);
+    }
+    return grown != NULL;
+}
+
 vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* transform, vtError* error)
 {
     if (scene == NULL || other == NULL || transform == NULL) {
@@ -145,7 +163,8 @@ vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* trans
         isTooLong(scene->materialCount, other->materialCount) ||
         isTooLong(scene->imageCount, other->imageCount) ||
         isTooLong(scene->objectCount, other->objectCount) ||
-        isTooLong(scene->cameraCount, other->cameraCount)) {
+        isTooLong(scene->cameraCount, other->cameraCount) ||
+        isTooLong(scene->lightCount, other->lightCount)) {
         return vtFail(error, vt_errorArgument, "scene: %s be appended to it; give another",
                       scene == other ? "it cannot itself" : "more than 2^31 things cannot");
     }
@@ -153,13 +172,22 @@ vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* trans
         !grow(&scene->materials, scene->materialCount, other->materialCount, sizeof *scene->materials) ||
         !grow(&scene->images, scene->imageCount, other->imageCount, sizeof *scene->images) ||
         !grow(&scene->objects, scene->objectCount, other->objectCount, sizeof *scene->objects) ||
-        !grow(&scene->cameras, scene->cameraCount, other->cameraCount, sizeof *scene->cameras)) {
+        !grow(&scene->cameras, scene->cameraCount, other->cameraCount, sizeof *scene->cameras) ||
+        !grow(&scene->lights, scene->lightCount, other->lightCount, sizeof *scene->lights)) {
         return vtFail(error, vt_errorMemory, "scene: out of memory for %u objects",
                       scene->objectCount + other->objectCount);
+    }
+    if (!appendNotes(scene, other)) {
+        return vtFail(error, vt_errorMemory, "scene: out of memory for the notes of both");
+    }
+    uint32_t bodies = 0; // numbers in use
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        bodies = scene->objects[i].body > bodies ? scene->objects[i].body : bodies;
     }
     for (uint32_t i = 0; i < other->objectCount; ++i) {
         vtObject* object = &scene->objects[scene->objectCount + i];
         *object = other->objects[i];
+        object->body += object->body != 0 ? bodies : 0;
         object->mesh += scene->meshCount;
         object->material += scene->materialCount;
         object->toWorld = multiply(transform, &other->objects[i].toWorld);
@@ -167,9 +195,16 @@ vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* trans
     for (uint32_t i = 0; i < other->materialCount; ++i) {
         vtMaterial* material = &scene->materials[scene->materialCount + i];
         *material = other->materials[i];
-        material->baseColorImage += material->baseColorImage >= 0 ? (int)scene->imageCount : 0;
-        material->metallicRoughnessImage +=
-            material->metallicRoughnessImage >= 0 ? (int)scene->imageCount : 0;
+        for (int k = 0; k < vt_mapCount; ++k) {
+            vtMap* map = &material->maps[k];
+            map->image += map->image >= 0 ? (int)scene->imageCount : 0;
+        }
+    }
+    for (uint32_t i = 0; i < other->lightCount; ++i) {
+        vtLight* light = &scene->lights[scene->lightCount + i];
+        *light = other->lights[i];
+        light->position = vtTransformPoint(transform, light->position);
+        light->direction = vtNormalize(vtTransformVector(transform, light->direction));
     }
     for (uint32_t i = 0; i < other->meshCount; ++i) {
         scene->meshes[scene->meshCount + i] = other->meshes[i];
@@ -185,6 +220,7 @@ vtResult vtScene_Append(vtScene* scene, vtScene* other, const vtTransform* trans
     scene->meshCount += other->meshCount;
     scene->imageCount += other->imageCount;
     scene->cameraCount += other->cameraCount;
+    scene->lightCount += other->lightCount;
     other->meshCount = other->imageCount = 0; // what they hold has moved
     vtDestroyScene(other);
     return vtSucceed(error);
@@ -207,6 +243,8 @@ void vtDestroyScene(vtScene* scene)
     vtFree(scene->images);
     vtFree(scene->objects);
     vtFree(scene->cameras);
+    vtFree(scene->lights);
+    vtFree(scene->notes);
     *scene = (vtScene){0};
 }
 
@@ -217,7 +255,7 @@ vtResult vtScene_Complete(vtScene* scene, bool heights, bool innerDistances, boo
     vtResult result = vtSucceed(error);
     for (uint32_t i = 0; scene->meshes != NULL && i < scene->meshCount && result == vt_ok; ++i) {
         vtMesh* mesh = &scene->meshes[i];
-        const bool byHeights = heights && i == relief && !vtScene_Uses(scene, i, true);
+        const bool byHeights = heights && i == relief;
         if (mesh->heights != NULL && mesh->indexCount == 0 && !byHeights) {
             result = vtTriangulateRelief(mesh, error);
             any = true;

@@ -101,7 +101,10 @@ class VitrineContestant {
     this.#setGlass(reflects);
     const contents = what === 'picture' ? files.environment : files.directions;
     this.#must(this.viewer.attemptFile('OpenEnvironment', { name: 'environment.hdr', contents }));
-    while (this.draw() === 2) await new Promise((done) => setTimeout(done, 5)); // its shaders are not compiled yet
+    while (this.draw() === 2) { // its shaders are not loaded or not compiled yet
+      if (this.viewer.lacksShaders) await this.viewer.loadShaders();
+      else await new Promise((done) => setTimeout(done, 5));
+    }
   }
 
   draw() {

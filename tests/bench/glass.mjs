@@ -95,7 +95,7 @@ async function main() {
   writeFileSync(join(out, 'site/directions.hdr'), directionsHdr());
   const server = await serveWith(join(out, 'site'), {
     '/': join(out, 'site/index.html'), '/model.glb': options.model, '/environment.hdr': options.environment,
-    '/vitrine-core.wasm': join(web, 'vitrine-core.wasm'),
+    '/vitrine-core.wasm': join(web, 'vitrine-core.wasm'), '/vitrine-shaders.txt': join(web, 'vitrine-shaders.txt'),
   });
   const environment = { ...process.env };
   if (options.gl === 'llvmpipe') environment.LIBGL_ALWAYS_SOFTWARE = '1';

@@ -69,7 +69,7 @@ function serve() {
   const cache = new Map();
   return listen((request, response) => {
     const { pathname } = new URL(request.url, 'http://localhost');
-    const file = pathname === '/model.glb' ? model : pathname.endsWith('.wasm') ? join(web, 'vitrine-core.wasm') : join(site, pathname);
+    const file = pathname === '/model.glb' ? model : /^\/vitrine-(core\.wasm|shaders\.txt)$/.test(pathname) ? join(web, pathname) : join(site, pathname);
     if (!cache.has(pathname)) {
       const known = pages[pathname] ?? (existsSync(file) ? readFileSync(file) : null);
       cache.set(pathname, known && gzipSync(known, { level: 9 }));

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "render/renderer.h"
 #include "technique/settings.h"
 #include "technique/technique.h"
 
@@ -168,6 +169,18 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Resize(vtViewer* viewer, int width, in
     frame.width = width;
     frame.height = height;
     return sentence(viewer, showFrame(viewer, &frame));
+}
+
+/// Is the last frame asked for to be drawn by shaders that are still to be loaded?
+EMSCRIPTEN_KEEPALIVE bool vtViewer_LacksShaders(const vtViewer* viewer)
+{
+    return viewer->renderer->lacksShaders;
+}
+
+/// Those, as vtRenderer_SetLaterShaders has them; the page keeps them.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetShaders(vtViewer* viewer, const char* file)
+{
+    return sentence(viewer, vtRenderer_SetLaterShaders(viewer->renderer, file, &viewer->error));
 }
 
 EMSCRIPTEN_KEEPALIVE int vtViewer_Tick(vtViewer* viewer)

@@ -37,7 +37,8 @@ void vtViewer_Destroy(vtViewer* viewer);
 void vtViewer_Begin(vtViewer* viewer);
 
 /// Draws the canvas if anything changed, else adds the next sample until all are there. 1: drawn, 0: nothing
-/// to do, 2: shaders are not compiled yet, ask again, -1: failed, see vtViewer_Error.
+/// to do, 2: shaders are not compiled or, see vtViewer_LacksShaders, not loaded yet, ask again, -1: failed,
+/// see vtViewer_Error.
 int vtViewer_Tick(vtViewer* viewer);
 
 /// Gives the scene what a technique needs; where that cannot be had, all stays on the GPU as it was.

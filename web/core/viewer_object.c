@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "core/viewer.h"
 
 vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec)
@@ -9,6 +10,11 @@ vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind
     *spec = (vtObjectSpec){0};
     const vtResult result =
         *text == '\0' ? vt_ok : vtParseObject(text, "objects", false, spec, &viewer->error);
+    if (result == vt_ok && spec->image[0] != '\0') {
+        return vtFail(&viewer->error, vt_errorArgument,
+                      "objects '%.200s': image is a file, which a page cannot read; use a model with it",
+                      text);
+    }
     return result == vt_ok ? vtObjectSpec_Check(spec, kind, "objects", &viewer->error) : result;
 }
 

@@ -170,6 +170,12 @@ vtTechnique vtViewer_UsualTechnique(const vtViewer* viewer)
     return vtScene_HasRelief(&viewer->scene) ? vt_techniqueHeightField : vt_techniqueExact;
 }
 
+/// What of the files that are shown is left out or changed, a line each; NULL: nothing.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_Notes(const vtViewer* viewer)
+{
+    return viewer->scene.notes;
+}
+
 /// A scene of one shape.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetShape(vtViewer* viewer, const char* name)
 {
@@ -191,6 +197,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenModel(vtViewer* viewer, uint8_t* b
 EMSCRIPTEN_KEEPALIVE void vtViewer_ResetView(vtViewer* viewer, float aspect)
 {
     viewer->frame.view = vtViewOfScene(&viewer->scene, viewer->frame.view.fovY, aspect);
+    viewer->frame.orthographicHeight = 0.0f;
     viewer->changed = true;
 }
 
@@ -205,7 +212,8 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_UseCamera(vtViewer* viewer, int index)
                index, count - 1);
         return viewer->error.message;
     }
-    viewer->frame.view = viewer->scene.cameras[index];
+    viewer->frame.view = viewer->scene.cameras[index].view;
+    viewer->frame.orthographicHeight = viewer->scene.cameras[index].orthographicHeight;
     viewer->changed = true;
     return NULL;
 }

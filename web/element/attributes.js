@@ -50,7 +50,7 @@ export const attributes = [
   string('field-of-view', 'Vertical, deg or rad, 1 to 170 degrees; auto: 45deg, or that of the camera.', { default: 'auto' }),
   number('camera-index', 0, 255, null, 'The camera of the file that is looked through, where camera-orbit, camera-target and field-of-view are auto.', { integer: true, defaultText: 'none' }),
   boolean('auto-rotate', 'Turns slowly while nobody touches it; not where the visitor prefers reduced motion.'),
-  string('environment-image', `What the glass refracts: URL of an equirectangular .hdr, .png or .jpg, or ${environments.join(', ')}.`, { default: 'studio' }),
+  string('environment-image', `What the glass refracts: URL of a picture, equirectangular or of six faces, or ${environments.join(', ')}.`, { default: 'studio' }),
   string('skybox-image', 'When present, the environment is shown behind the glass; its value, if any, is the environment where environment-image is absent. Absent: the page shows behind the glass.'),
   number('exposure', 1e-6, 1e6, 1, 'Factor on the light of the picture.'),
   oneOf('touch-action', ['pan-y', 'pan-x', 'none'], 'What a finger does to the page rather than to the view.'),

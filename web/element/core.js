@@ -10,18 +10,41 @@ const viewers = new Set(); // those with a context
 const numbers = new WeakMap(); // of a part's contents, by which the core knows them again
 let lastNumber = 0;
 let loading = null;
+let places = {}; // of the last loadCore
+let shaders = null; // promise of where they are in the core's memory
 
 /**
  * The module. A load that failed is tried again by the next call.
- * @param {{locateFile?: (name: string) => string, wasmBinary?: BufferSource}} places where the wasm is, if not beside this
+ * @param {{locateFile?: (name: string) => string, wasmBinary?: BufferSource, laterShaders?: string}} from where the wasm and the shaders are, if not beside this
  */
-export function loadCore({ locateFile, wasmBinary } = {}) {
+export function loadCore(from = {}) {
+  const { locateFile, wasmBinary } = (places = from);
   const wasm = () => new URL('../vitrine-core.wasm', import.meta.url).href;
   loading ??= createVitrine({ locateFile: (name) => locateFile?.(name) ?? wasm(), wasmBinary }).catch((reason) => {
     loading = null;
     throw reason;
   });
   return loading;
+}
+
+/** vitrine-shaders.txt, which most pages need not: once, unless that failed. @returns {Promise<number>} where it is in the core's memory */
+function loadShaders(core) {
+  const name = 'vitrine-shaders.txt';
+  const fetchThem = async () => {
+    const response = places.laterShaders ? new Response(places.laterShaders) : await fetch(places.locateFile?.(name) ?? new URL('../vitrine-shaders.txt', import.meta.url));
+    if (!response.ok) throw new Error(`the server answered ${response.status}; serve it beside vitrine-core.wasm`);
+    const bytes = new Uint8Array(await response.arrayBuffer()).map((byte) => (byte === 12 ? 0 : byte)); // as vtRenderer_SetLaterShaders has it
+    const place = core._malloc(bytes.length + 2);
+    if (place === 0) throw new Error('out of memory');
+    core.HEAPU8.set(bytes, place);
+    core.HEAPU8.fill(0, place + bytes.length, place + bytes.length + 2);
+    return place;
+  };
+  shaders ??= fetchThem().catch((reason) => {
+    shaders = null;
+    throw new Error(`${name} cannot be loaded: ${reason.message}`, { cause: reason });
+  });
+  return shaders;
 }
 
 /** What is held at present, for measurements. */
@@ -180,6 +203,11 @@ export class Viewer {
     return this.attempt('Show');
   }
 
+  /** What of the files that are shown is left out or changed. @returns {string[]} sentences */
+  get notes() {
+    return this.attempt('Notes').split('\n').filter(Boolean);
+  }
+
   /** Goes on with what the scene that was begun is searched by, for some milliseconds. @returns {boolean} it is whole, or cannot be */
   build(milliseconds) {
     const end = performance.now() + milliseconds;
@@ -187,6 +215,20 @@ export class Viewer {
     do isWhole = this.call('Build', workAtOnce) === 1;
     while (!isWhole && performance.now() < end);
     return isWhole;
+  }
+
+  get lacksShaders() {
+    return this.call('LacksShaders') === 1;
+  }
+
+  /** Loads what the last frame lacked. @throws {Error} a sentence */
+  async loadShaders() {
+    const place = await loadShaders(this.#core);
+    if (this.isLost || !viewers.has(this)) return;
+    const problem = this.attempt('SetShaders', place);
+    if (!problem) return;
+    shaders = null;
+    throw new Error(problem);
   }
 
   problem() {

@@ -1,4 +1,4 @@
-// PNG and JPEG, which the browser decodes; the core reads Radiance HDR and PFM only, and so is 12 KB smaller.
+// PNG, JPEG, WebP and AVIF, which the browser decodes, and OpenEXR, which exr.js does; the core reads Radiance HDR and PFM only.
 
 const largestTexture = 2048; // VT_MAX_ARRAY_SIDE
 const largestRelief = 4096; // VT_MAX_RELIEF_SIDE
@@ -11,6 +11,7 @@ const largestRelief = 4096; // VT_MAX_RELIEF_SIDE
  */
 export async function decodePicture(bytes) {
   if (bytes[0] === 0x23 && bytes[1] === 0x3f) return bytes; // "#?" of Radiance HDR
+  if (bytes[0] === 0x76 && bytes[1] === 0x2f) return import('./exr.js').then(({ exrToPfm }) => exrToPfm(bytes)).catch(() => bytes);
   const asInTheFile = { colorSpaceConversion: 'none', premultiplyAlpha: 'none' };
   return createImageBitmap(new Blob([bytes]), asInTheFile).catch(() => bytes);
 }

@@ -18,6 +18,7 @@ const stillAfter = 250; // milliseconds without motion until the full frame
  * @property {(detail: object) => void} scaled of the render-scale event
  * @property {() => void} turned by itself
  * @property {(cause: string, sentence: string) => void} warned of something left out; '': of nothing any more
+ * @property {(sentences: string[]) => void} noted what of the files that are shown is left out or changed
  * @property {() => void} lost the context
  * @property {() => void} restored
  * @property {(sentence: string) => void} failed to draw
@@ -48,7 +49,8 @@ export class Stage {
   #dirty = false;
   #isRefining = false; // samples may be missing
   #frame = 0; // of requestAnimationFrame
-  #busy = null; // the fence of the frame on the GPU
+  #busy = null; // the fence of the frame on the GPU, or the promise of its shaders
+  #lacks = false; // shaders could not be loaded
   #still = 0; // timer
   #framedFor = ''; // aspect and field of view
   #refused = null; // the technique that the scene is too large for
@@ -122,6 +124,17 @@ export class Stage {
     this.#viewer = null;
     const canvas = this.#host.querySelector('canvas');
     canvas.replaceWith(canvas.cloneNode()); // a canvas whose context was given up gets no other
+  }
+
+  /** As image(), but waits for shaders that are still to be loaded. @returns {Promise<ImageData>} */
+  async wholeImage() {
+    try {
+      return this.image();
+    } catch (reason) {
+      if (!this.#viewer?.lacksShaders) throw reason;
+      await this.#viewer.loadShaders();
+      return this.image();
+    }
   }
 
   /** The full picture. @returns {ImageData} @throws {Error} a sentence */
@@ -234,6 +247,7 @@ export class Stage {
         if (!problem) {
           this.#framedFor = '';
           this.#refused &&= {};
+          if (isNew) this.#told.noted(viewer.notes);
         }
         this.#shown('model', source, isNew, problem);
       } else {
@@ -362,11 +376,14 @@ export class Stage {
     const start = performance.now();
     const drawn = this.#viewer.call('Tick');
     this.#isRefining = drawn > 0;
-    if (drawn === 2) { // shaders are being compiled
+    if (drawn === 2) { // shaders are being compiled, or are still to be loaded
       this.#dirty = isNew;
-      this.#schedule();
+      if (this.#viewer.lacksShaders) this.#awaitShaders();
+      else this.#schedule();
       return;
     }
+    if (this.#lacks) this.#told.warned('context', '');
+    this.#lacks = false;
     if (drawn < 0) problem ||= this.#viewer.problem();
     if (problem) this.#told.failed(problem);
     if (isNew) this.#tellScale(width, height);
@@ -383,6 +400,19 @@ export class Stage {
     const { reason, scale } = this.quality;
     const minimumDpr = this.#dpr * levels.at(-1).scale;
     this.#told.scaled({ reportedDpr: window.devicePixelRatio, renderedDpr: this.#dpr * scale, minimumDpr, ...size, reason });
+  }
+
+  /** Where they cannot be loaded, nothing is drawn until something changes. */
+  #awaitShaders() {
+    const loading = (this.#busy = this.#viewer.loadShaders());
+    const end = (reason) => {
+      if (this.#busy !== loading) return; // closed or lost
+      this.#busy = null;
+      this.#lacks = reason !== undefined;
+      if (this.#lacks) this.#told.failed(reason.message);
+      else this.#schedule();
+    };
+    loading.then(end, end);
   }
 
   /** Waits for the GPU without holding the page up; the next frame starts after it. */

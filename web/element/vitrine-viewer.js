@@ -17,6 +17,7 @@ const spinPause = 3000; // milliseconds after the last touch
  * @fires progress {totalProgress}: 0 to 1, from bytes
  * @fires error {type: 'loadfailure'|'webglcontextlost'|'unsupported'|'invalid', sourceError}
  * @fires camera-change {source: 'user-interaction'|'none'}
+ * @fires warning {sentences}: what of the files is left out or changed
  * @fires frame {milliseconds}: one is on the screen, and how long it took
  * @fires render-scale {reportedDpr, renderedDpr, minimumDpr, pixelWidth, pixelHeight, preset, layers, steps, maxEvents, reason}
  */
@@ -27,6 +28,8 @@ export class VitrineViewer extends HTMLElement {
   static locateFile;
   /** The wasm itself, for a bundle. @type {BufferSource|undefined} */
   static wasmBinary;
+  /** What vitrine-shaders.txt has in it, for a bundle. @type {string|undefined} */
+  static laterShaders;
   /** Contexts and bytes held by all elements, for measurements. */
   static statistics = coreStatistics;
 
@@ -41,6 +44,7 @@ export class VitrineViewer extends HTMLElement {
     failed: (kind, reason) => this.#fail('loadfailure', kind, reason.message, reason),
   });
   #isLoaded = false;
+  #warnings = [];
   #hasFrame = false;
   #isDismissed = false;
   #wasSeen = false;
@@ -73,6 +77,11 @@ export class VitrineViewer extends HTMLElement {
   /** The model of the present src is in the picture. */
   get loaded() {
     return this.#isLoaded;
+  }
+
+  /** What of the model's files is left out or changed, sentences. */
+  get warnings() {
+    return this.#warnings;
   }
 
   /** The poster is gone and the model can be seen. */
@@ -131,8 +140,8 @@ export class VitrineViewer extends HTMLElement {
   }
 
   /** The full picture as a file. @param {{mimeType?: string, qualityArgument?: number}} options @returns {Promise<Blob>} */
-  toBlob({ mimeType = 'image/png', qualityArgument } = {}) {
-    const canvas = this.#paint();
+  async toBlob({ mimeType = 'image/png', qualityArgument } = {}) {
+    const canvas = paint(await this.#stage.wholeImage());
     return new Promise((resolve, reject) => {
       canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser gave no file'))), mimeType, qualityArgument);
     });
@@ -140,14 +149,7 @@ export class VitrineViewer extends HTMLElement {
 
   /** The full picture as a data: URL. */
   toDataURL(type = 'image/png', qualityArgument) {
-    return this.#paint().toDataURL(type, qualityArgument);
-  }
-
-  #paint() {
-    const image = this.#stage.image();
-    const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
-    canvas.getContext('2d').putImageData(image, 0, 0);
-    return canvas;
+    return paint(this.#stage.image()).toDataURL(type, qualityArgument);
   }
 
   // -------------------------------------------------------------------------------------------------- life
@@ -325,6 +327,10 @@ export class VitrineViewer extends HTMLElement {
       },
       rejected: (kind, sentence) => this.#fail('loadfailure', kind, sentence),
       warned: (cause, sentence) => (sentence ? this.#fail('invalid', cause, sentence) : this.#say(cause, '')),
+      noted: (sentences) => {
+        this.#warnings = sentences;
+        if (sentences.length > 0) this.#dispatch('warning', { sentences });
+      },
       frame: (milliseconds) => this.#onFrame(milliseconds),
       scaled: (detail) => this.#dispatch('render-scale', detail),
       turned: () => this.#changedCamera('none'),
@@ -380,6 +386,12 @@ export class VitrineViewer extends HTMLElement {
   #dispatch(type, detail) {
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
+}
+
+function paint(image) {
+  const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
+  canvas.getContext('2d').putImageData(image, 0, 0);
+  return canvas;
 }
 
 defineProperties(VitrineViewer.prototype);

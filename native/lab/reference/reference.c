@@ -169,7 +169,7 @@ static float startOf(const vtReference* reference, const vtReferencePath* path, 
 static float limitOf(const vtReference* reference, const vtReferencePath* path, const vtMeeting* meeting,
                      uint32_t object)
 {
-    if (object < reference->glassCount && vtMedia_Holds(&path->within, object + 1)) {
+    if (object < reference->glassCount && vtMedia_Holds(&path->within, reference->objects[object].body + 1)) {
         return INFINITY;
     }
     const float touching = meeting->nearest + VT_TOUCH_DISTANCE * reference->extent;
@@ -267,7 +267,7 @@ void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths
                 }
             } else {
                 keepGlass(reference, &meetings[lane], &hit);
-                sidesAhead[lane] += vtMedia_Holds(&paths[numbers[lane]].within, object + 1);
+                sidesAhead[lane] += vtMedia_Holds(&paths[numbers[lane]].within, placed->body + 1);
             }
         }
     }

@@ -32,6 +32,7 @@ enum { maxPasses = 10000 };
 /// A surface of glass met by a path.
 typedef struct Surface {
     const vtSurfaceHit* hit;
+    const vtPlacedObject* object;
     vtVec3 G;    ///< outward normal of the triangle, world
     bool behind; ///< met from within
 } Surface;
@@ -54,13 +55,6 @@ static vtVec3 triangleNormal(const vtPlacedObject* object, const vtSurfaceHit* h
     return vtNormalize(vtTransformNormal(&object->toObject, normal));
 }
 
-static vtVec3 surfaceNormal(const vtPlacedObject* object, const vtSurfaceHit* hit)
-{
-    vtVec3 normals[3];
-    vtMesh_Normals(object->mesh, hit->triangle, normals);
-    return vtNormalize(vtTransformNormal(&object->toObject, vtBlend(normals, hit->u, hit->v)));
-}
-
 static vtVec3 surfacePoint(const vtPlacedObject* object, const vtSurfaceHit* hit)
 {
     vtVec3 corners[3];
@@ -79,7 +73,8 @@ static vtVec3 mirror(vtVec3 I, vtVec3 N)
 static bool isStart(const vtReference* reference, const vtReferencePath* path, const Surface* surface)
 {
     const vtSurfaceHit* hit = surface->hit;
-    const bool wrongSide = vtMedia_Holds(&path->within, hit->object + 1) != surface->behind;
+    const vtPlacedObject* object = &reference->objects[hit->object];
+    const bool wrongSide = !object->thin && vtMedia_Holds(&path->within, object->body + 1) != surface->behind;
     const bool near = hit->distance < VT_SELF_DISTANCE * reference->extent;
     for (int i = 0; i < path->startCount; ++i) {
         if (path->startObjects[i] == hit->object &&
@@ -100,7 +95,7 @@ static bool findSurfaces(const vtReference* reference, const vtReferencePath* pa
         const vtSurfaceHit* hit = &meeting->glass[i];
         const vtVec3 G = triangleNormal(&reference->objects[hit->object], hit);
         Surface* surface = &place->surfaces[place->count];
-        *surface = (Surface){hit, G, vtDot(G, path->direction) > 0.0f};
+        *surface = (Surface){hit, &reference->objects[hit->object], G, vtDot(G, path->direction) > 0.0f};
         if (!isStart(reference, path, surface)) {
             ++place->count;
         } else if (hit->distance == meeting->nearest) {
@@ -116,7 +111,8 @@ static bool toggle(vtMedia* media, const Place* place, bool behind)
     bool fits = true;
     for (int i = 0; i < place->count; ++i) {
         const Surface* surface = &place->surfaces[i];
-        fits = fits && (surface->behind != behind || vtMedia_Toggle(media, surface->hit->object + 1));
+        fits = fits && (surface->behind != behind || surface->object->thin ||
+                        vtMedia_Toggle(media, surface->object->body + 1));
     }
     return fits;
 }
@@ -129,8 +125,9 @@ static bool findMedia(const vtReferencePath* path, Place* place)
     place->before = path->within;
     bool fits = true;
     for (int i = 0; i < place->count; ++i) {
-        const uint32_t id = place->surfaces[i].hit->object + 1;
-        if (vtMedia_Holds(&place->before, id) != place->surfaces[i].behind) {
+        const uint32_t id = place->surfaces[i].object->body + 1;
+        if (!place->surfaces[i].object->thin &&
+            vtMedia_Holds(&place->before, id) != place->surfaces[i].behind) {
             fits = fits && vtMedia_Toggle(&place->before, id);
         }
     }
@@ -138,9 +135,14 @@ static bool findMedia(const vtReferencePath* path, Place* place)
     return fits && toggle(&place->after, place, true) && toggle(&place->after, place, false);
 }
 
+static float iorOf(const vtPathRules* rules, const vtPlacedObject* object)
+{
+    return rules->ior > 0.0f && !object->material->opaque ? rules->ior : vtMaterial_Index(object->material);
+}
+
 static float indexOf(const vtReference* reference, const vtPathRules* rules, uint32_t id)
 {
-    return id == 0 ? 1.0f : rules->ior > 0.0f ? rules->ior : reference->objects[id - 1].material->ior;
+    return id == 0 ? 1.0f : iorOf(rules, &reference->objects[id - 1]);
 }
 
 static vtVec3 multiply(vtVec3 a, vtVec3 b)
@@ -167,10 +169,62 @@ static bool end(vtReferencePath* path, uint8_t state)
     return false;
 }
 
-static bool endOn(vtReferencePath* path, const vtSurfaceHit* opaque)
+static float largest(vtVec3 v)
 {
-    path->end = *opaque;
-    return end(path, VT_PATH_OPAQUE);
+    return fmaxf(fmaxf(v.x, v.y), v.z);
+}
+
+/// Of plain glass, which sends nothing by itself: all that meetGlass asks for, and no more, since the time of
+/// plain glass is what others are measured by.
+static void lookAtPlain(const vtPathRules* rules, const vtPlacedObject* object, const vtSurfaceHit* hit,
+                        vtLook* seen)
+{
+    vtVec3 normals[3];
+    vtMesh_Normals(object->mesh, hit->triangle, normals);
+    seen->N = vtNormalize(vtTransformNormal(&object->toObject, vtBlend(normals, hit->u, hit->v)));
+    seen->base = object->material->tint;
+    seen->coverage = seen->passes = seen->specular = 1.0f;
+    seen->specularColor = (vtVec3){1.0f, 1.0f, 1.0f};
+    seen->film = 0.0f;
+    seen->mirror = false;
+    seen->ior = iorOf(rules, object);
+}
+
+/// What the surface is like, and what it sends to the eye by itself.
+static void look(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
+                 const vtSurfaceHit* hit, vtLook* seen)
+{
+    const vtPlacedObject* object = &reference->objects[hit->object];
+    if (object->plain && !object->material->opaque) {
+        lookAtPlain(rules, object, hit, seen);
+        return;
+    }
+    *seen = vtLookAt(reference->scene, object, hit->triangle, hit->u, hit->v, iorOf(rules, object));
+    if (rules->illumination != NULL) {
+        const vtVec3 I = path->direction;
+        const float side = vtDot(seen->G, I) > 0.0f ? -1.0f : 1.0f;
+        const vtVec3 N = vtScale(vtDot(vtScale(seen->N, side), I) < 0.0f ? seen->N : seen->G, side);
+        const vtVec3 sent =
+            vtLook_SentLight(seen, rules->illumination, N, I, surfacePoint(object, hit), rules->exposure);
+        path->light = vtMulAdd(path->light, seen->coverage, multiply(path->weight, sent));
+    }
+}
+
+/// Meets what is opaque: ends there, unless some of its light passes beside it.
+static bool meetOpaque(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
+                       const vtSurfaceHit* opaque)
+{
+    vtLook seen;
+    look(reference, rules, path, opaque, &seen);
+    const vtVec3 beside = vtScale(path->weight, 1.0f - seen.coverage);
+    if (largest(beside) < leastWeight) {
+        path->end = *opaque;
+        return end(path, VT_PATH_OPAQUE);
+    }
+    path->weight = beside;
+    path->nudged = false;
+    path->passed = fmaxf(path->passed, opaque->distance);
+    return ++path->passes < maxPasses || end(path, VT_PATH_LOST);
 }
 
 /// Lets the path begin anew on the surfaces met; the first says where that is.
@@ -191,69 +245,134 @@ static void startAt(const vtReference* reference, vtReferencePath* path, const P
     }
 }
 
-/// Counts the event; false where the path ends with it.
-static bool countEvent(const vtPathRules* rules, vtReferencePath* path)
-{
-    if (++path->events == rules->maxEvents && vtMedia_Top(&path->within) != 0) {
-        return end(path, VT_PATH_LOST);
-    }
-    return true;
-}
-
-/// One event: the path goes on refracted or, where it must, reflected. False where it ends. *branch: a path
-/// that is reflected where this one refracts; its weight is 0 where there is none.
-static bool bend(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
-                 const Place* place, float eta, vtReferencePath* branch)
-{
-    const Surface* surface = &place->surfaces[0];
-    const vtPlacedObject* object = &reference->objects[surface->hit->object];
-    const float turn = surface->behind ? -1.0f : 1.0f;
-    const vtVec3 G = vtScale(surface->G, turn);
-    vtVec3 N = vtScale(surfaceNormal(object, surface->hit), turn);
-    const vtVec3 I = path->direction;
-    bool reflected;
-    const vtVec3 T = vtMeetInterface(I, N, G, eta, &reflected);
-    startAt(reference, path, place);
-    path->reflected |= reflected;
-    if (!reflected && rules->fresnel) {
-        N = vtDot(N, I) >= 0.0f ? G : N;
-        const float F = vtFresnel(-vtDot(N, I), eta);
-        const vtVec3 R = mirror(I, N);
-        *branch = *path;
-        branch->direction = vtDot(R, G) > 0.0f ? R : mirror(I, G);
-        branch->weight = vtScale(path->weight, F);
-        countEvent(rules, branch);
-        path->weight = vtScale(path->weight, 1.0f - F);
-    }
-    path->direction = T;
-    if (!reflected) {
-        path->within = place->after;
-        path->weight = multiply(path->weight, object->material->tint);
-    }
-    if (!countEvent(rules, path)) {
-        return false;
-    }
-    // What is opaque and touches the glass comes after it.
-    return reflected || place->opaque->triangle == VT_NO_TRIANGLE || endOn(path, place->opaque);
-}
-
-/// Lets the path go straight on where nothing changes on the way; false where it ends.
-static bool pass(vtReferencePath* path, const Place* place)
+/// Lets the path go straight on from the surfaces met.
+static void pass(vtReferencePath* path, const Place* place)
 {
     for (int i = 0; i < place->count; ++i) {
         path->passed = fmaxf(path->passed, place->surfaces[i].hit->distance);
     }
-    path->within = place->after;
     path->nudged = false;
-    if (place->opaque->triangle != VT_NO_TRIANGLE) {
-        return endOn(path, place->opaque);
+    ++path->passes;
+}
+
+/// Paths that branch off from one.
+typedef struct Branches {
+    vtReferencePath paths[2];
+    int count;
+} Branches;
+
+/// What part of a path's light goes a way of its own.
+typedef struct Way {
+    vtVec3 weight, direction;
+    vtMedia within;
+    bool straight, counts; ///< it goes on as it came; it is an event
+} Way;
+
+/// Sends the path on its way from the surfaces met.
+static void send(const vtReference* reference, vtReferencePath* path, const Place* place, const Way* way)
+{
+    path->weight = way->weight;
+    path->direction = way->direction;
+    path->within = way->within;
+    if (way->straight) {
+        pass(path, place);
+    } else {
+        startAt(reference, path, place);
     }
-    return ++path->passes < maxPasses || end(path, VT_PATH_LOST);
+}
+
+/// The surface whose material counts: of a body rather than of a thin wall.
+static const Surface* surfaceOf(const Place* place)
+{
+    int first = 0;
+    while (first < place->count && place->surfaces[first].object->thin) {
+        ++first;
+    }
+    return &place->surfaces[first < place->count ? first : 0];
+}
+
+/// Counts the event, if it is one; what is opaque and touches the glass comes after it. False where the path
+/// ends.
+static bool leaveSurface(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
+                         const Place* place, bool counts, bool goesThrough)
+{
+    if (counts && ++path->events >= rules->maxEvents && vtMedia_Top(&path->within) != 0) {
+        return end(path, VT_PATH_LOST);
+    }
+    if (path->passes >= maxPasses) {
+        return end(path, VT_PATH_LOST);
+    }
+    return !goesThrough || place->opaque->triangle == VT_NO_TRIANGLE ||
+           meetOpaque(reference, rules, path, place->opaque);
+}
+
+/// Lets light that leaves the path branch off, unless there is too little of it.
+static void branchOff(const vtReference* reference, const vtPathRules* rules, const vtReferencePath* path,
+                      const Place* place, const Way* way, bool goesThrough, Branches* branches)
+{
+    if (largest(way->weight) < leastWeight) {
+        return;
+    }
+    vtReferencePath* branch = &branches->paths[branches->count++];
+    *branch = *path;
+    branch->light = (vtVec3){0.0f, 0.0f, 0.0f};
+    send(reference, branch, place, way);
+    leaveSurface(reference, rules, branch, place, way->counts, goesThrough);
+}
+
+/// Parts the light that meets a surface of glass into what passes through it, what it mirrors and what passes
+/// beside it: one of them is the path, the others branch off. `eta`: index before over the one behind; 1: it
+/// bends nothing. False where the path has ended.
+static bool meetGlass(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
+                      const Place* place, bool isInterface, float eta, Branches* branches)
+{
+    const Surface* surface = surfaceOf(place);
+    const bool thin = surface->object->thin, straight = thin || eta == 1.0f;
+    vtLook seen;
+    look(reference, rules, path, surface->hit, &seen);
+    const float turn = surface->behind ? -1.0f : 1.0f;
+    const vtVec3 G = vtScale(surface->G, turn), I = path->direction;
+    const vtVec3 given = vtScale(seen.N, turn), N = vtDot(given, I) >= 0.0f ? G : given;
+    bool reflected = false;
+    const vtVec3 T = straight ? I : vtMeetInterface(I, given, G, eta, &reflected);
+    vtVec3 F = {0.0f, 0.0f, 0.0f};
+    if (reflected) {
+        F = (vtVec3){1.0f, 1.0f, 1.0f};
+    } else if (rules->fresnel && isInterface) {
+        const float into = thin ? 1.0f / seen.ior : eta, cosine = -vtDot(N, I);
+        F = vtLook_Reflectance(&seen, cosine, vtFresnel(cosine, into), fmaxf(into, 1.0f / into),
+                               surface->behind && !thin);
+    }
+    const vtVec3 share = vtScale(path->weight, seen.coverage * seen.passes), mirrored = multiply(share, F);
+    const vtVec3 left = vtSub(share, mirrored), R = reflected ? T : mirror(I, N);
+    Way through = {isInterface ? multiply(left, seen.base) : left, T, place->after, straight, !straight};
+    const Way mirroring = {mirrored, reflected || vtDot(R, G) > 0.0f ? R : mirror(I, G), path->within, false,
+                           true};
+    Way beside = {vtScale(path->weight, 1.0f - seen.coverage), I, path->within, true, false};
+    if (thin) { // the same way
+        through.weight = vtAdd(through.weight, beside.weight);
+        beside.weight = (vtVec3){0.0f, 0.0f, 0.0f};
+    }
+    path->reflected |= reflected;
+    const bool passes = seen.passes * seen.coverage + (thin ? 1.0f - seen.coverage : 0.0f) > 0.0f;
+    if (!passes && seen.coverage >= 1.0f) {
+        return end(path, VT_PATH_OPAQUE);
+    }
+    // The path itself is what goes through, or is totally reflected; else what passes beside.
+    const Way* own = !passes ? &beside : reflected ? &mirroring : &through;
+    if (own != &mirroring && rules->fresnel) {
+        branchOff(reference, rules, path, place, &mirroring, false, branches);
+    }
+    if (own != &beside && seen.coverage < 1.0f) {
+        branchOff(reference, rules, path, place, &beside, true, branches);
+    }
+    send(reference, path, place, own);
+    return leaveSurface(reference, rules, path, place, own->counts, own != &mirroring);
 }
 
 /// Takes a path through what it met; false where it ends.
 static bool advance(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
-                    const vtMeeting* meeting, vtReferencePath* branch)
+                    const vtMeeting* meeting, Branches* branches)
 {
     if (meeting->missed && !path->nudged) {
         path->direction = vtNudge(path->direction);
@@ -263,7 +382,7 @@ static bool advance(const vtReference* reference, const vtPathRules* rules, vtRe
     const vtSurfaceHit* opaque = &meeting->opaque;
     if (opaque->distance < meeting->nearest - VT_TOUCH_DISTANCE * reference->extent) {
         absorb(reference, path, opaque->distance);
-        return endOn(path, opaque);
+        return meetOpaque(reference, rules, path, opaque);
     }
     if (meeting->glassCount == 0) {
         const bool inside = vtMedia_Top(&path->within) != 0;
@@ -279,13 +398,15 @@ static bool advance(const vtReference* reference, const vtPathRules* rules, vtRe
     }
     const uint32_t before = vtMedia_Top(&place.before), after = vtMedia_Top(&place.after);
     const float index = indexOf(reference, rules, before), indexAfter = indexOf(reference, rules, after);
-    const bool changes = before != after && index != indexAfter;
+    const bool thin = surfaceOf(&place)->object->thin;
+    const bool changes = !thin && before != after && index != indexAfter;
     if (changes && path->events == rules->maxEvents) {
         return end(path, VT_PATH_LOST); // it had left, and comes back
     }
     absorb(reference, path, meeting->nearest);
     path->within = place.before;
-    return changes ? bend(reference, rules, path, &place, index / indexAfter, branch) : pass(path, &place);
+    return meetGlass(reference, rules, path, &place, thin || before != after,
+                     changes ? index / indexAfter : 1.0f, branches);
 }
 
 // --------------------------------------------------------------------------------------------------- paths
@@ -314,11 +435,6 @@ void vtDestroyPathList(vtPathList* list)
     *list = (vtPathList){0};
 }
 
-static float largest(vtVec3 v)
-{
-    return fmaxf(fmaxf(v.x, v.y), v.z);
-}
-
 bool vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtPathList* list)
 {
     uint32_t count = list->count;
@@ -334,13 +450,15 @@ bool vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtPat
             vtReference_Meet(reference, list->paths, list->active + at, lanes, first, meetings);
             for (int lane = 0; lane < lanes; ++lane) {
                 const uint32_t number = list->active[at + (uint32_t)lane];
-                vtReferencePath branch;
-                branch.weight = (vtVec3){0.0f, 0.0f, 0.0f};
-                if (advance(reference, rules, &list->paths[number], &meetings[lane], &branch)) {
+                Branches branches;
+                branches.count = 0;
+                if (advance(reference, rules, &list->paths[number], &meetings[lane], &branches)) {
                     list->active[left++] = number;
                 }
-                if (largest(branch.weight) >= leastWeight && !vtPathList_Add(list, &branch)) {
-                    return false;
+                for (int i = 0; i < branches.count; ++i) {
+                    if (!vtPathList_Add(list, &branches.paths[i])) {
+                        return false;
+                    }
                 }
             }
         }

@@ -5,6 +5,7 @@
 
 #include "base/math.h"
 #include "lab/reference/reference.h"
+#include "light/look.h"
 #include "scene/media.h"
 #include "scene/objects.h"
 #include "shaders_es3/common/constants.h"
@@ -54,6 +55,7 @@ typedef struct vtMeeting {
 typedef struct vtReferencePath {
     vtVec3 origin, direction;
     vtVec3 weight;    ///< share of the light at its end that arrives at the eye
+    vtVec3 light;     ///< that surfaces on its way have sent there already
     float near;       ///< distance from which the surfaces of the objects count that it starts from
     float passed;     ///< distance of the last surface passed by since the last event; 0: none
     vtMedia within;   ///< scene/media.h
@@ -79,6 +81,8 @@ typedef struct vtPathRules {
     float ior; ///< of all glass; 0: each object's own
     int maxEvents;
     bool fresnel;
+    const vtIllumination* illumination; ///< NULL: only where paths go is asked for
+    float exposure;                     ///< factor
 } vtPathRules;
 
 /// Fills an empty Embree scene with a mesh's triangles, and one with a relief without any.

@@ -10,7 +10,6 @@
 #include "base/math.h"
 #include "lab/reference/reference.h"
 #include "lab/reference/reference_scene.h"
-#include "light/shading.h"
 #include "scene/camera.h"
 
 enum { tileSide = 16 };
@@ -21,12 +20,12 @@ typedef struct Job {
     const vtReferenceDef* def;
     vtReferenceImage* image;
     vtCamera camera;
-    float tangentX, tangentY; ///< of half the field of view
     int samples;
     float exposure; ///< factor
     vtPathRules rules;
     vtMedia eyeMedia;    ///< what the eye is within
-    vtLighting lighting; ///< of opaque surfaces
+    vtLighting lighting; ///< of surfaces that are matt or rough
+    vtIllumination illumination;
     int tileColumns, tileCount;
     atomic_int nextTile;
     atomic_bool failed; ///< memory is short
@@ -45,13 +44,18 @@ static Tile makeTile(const Job* job, int index)
                   row + tileSide < height ? row + tileSide : height};
 }
 
-/// The eye ray through (x, y) in pixels from the picture's upper left corner.
-static vtVec3 eyeDirection(const Job* job, float x, float y)
+/// The path of the eye ray through (x, y) in pixels from the picture's upper left corner.
+static vtReferencePath makeEyePath(const Job* job, float x, float y, uint32_t index)
 {
-    const float right = (x / (float)job->image->width * 2.0f - 1.0f) * job->tangentX;
-    const float up = (1.0f - y / (float)job->image->height * 2.0f) * job->tangentY;
-    const vtVec3 direction = vtMulAdd(job->camera.forward, right, job->camera.right);
-    return vtNormalize(vtMulAdd(direction, up, job->camera.up));
+    const vtCamera* camera = &job->camera;
+    const float right = (x / (float)job->image->width * 2.0f - 1.0f) * camera->high[0];
+    const float up = (1.0f - y / (float)job->image->height * 2.0f) * camera->high[1];
+    if (camera->orthographic) {
+        const vtVec3 eye = vtMulAdd(vtMulAdd(camera->eye, right, camera->right), up, camera->up);
+        return vtMakePath(eye, camera->forward, job->eyeMedia, index);
+    }
+    const vtVec3 direction = vtMulAdd(camera->forward, right, camera->right);
+    return vtMakePath(camera->eye, vtNormalize(vtMulAdd(direction, up, camera->up)), job->eyeMedia, index);
 }
 
 static size_t pixelIndex(const Job* job, int column, int row)
@@ -82,11 +86,12 @@ static bool traceCentres(const Job* job, const Tile* tile, vtPathList* list)
 {
     vtPathRules rules = job->rules;
     rules.fresnel = false;
+    rules.illumination = job->image->radiance != NULL ? rules.illumination : NULL;
     vtPathList_Clear(list);
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
-            const vtVec3 direction = eyeDirection(job, (float)column + 0.5f, (float)row + 0.5f);
-            const vtReferencePath path = vtMakePath(job->camera.eye, direction, job->eyeMedia, list->count);
+            const vtReferencePath path =
+                makeEyePath(job, (float)column + 0.5f, (float)row + 0.5f, list->count);
             if (!vtPathList_Add(list, &path)) {
                 return false;
             }
@@ -114,8 +119,8 @@ static bool followSamples(const Job* job, const Tile* tile, int index, vtPathLis
     vtPathList_Clear(list);
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
-            const vtVec3 direction = eyeDirection(job, (float)column + 0.5f + x, (float)row + 0.5f - y);
-            const vtReferencePath path = vtMakePath(job->camera.eye, direction, job->eyeMedia, list->count);
+            const vtReferencePath path =
+                makeEyePath(job, (float)column + 0.5f + x, (float)row + 0.5f - y, list->count);
             if (!vtPathList_Add(list, &path)) {
                 return false;
             }
@@ -127,13 +132,13 @@ static bool followSamples(const Job* job, const Tile* tile, int index, vtPathLis
 /// What a path brings to the eye.
 static vtVec3 lightOf(const Job* job, const vtReferencePath* path)
 {
-    const vtSurfaceHit* end = &path->end;
-    const vtVec3 light = path->state == VT_PATH_OPAQUE
-                             ? vtShadeSurface(job->reference->scene, &job->reference->objects[end->object],
-                                              &job->lighting, end->triangle, end->u, end->v, path->direction)
-                             : vtEnvironment_Sample(job->def->environment, path->direction);
-    return vtScale((vtVec3){light.x * path->weight.x, light.y * path->weight.y, light.z * path->weight.z},
-                   job->exposure);
+    vtVec3 light = path->light;
+    if (path->state != VT_PATH_OPAQUE) { // all that comes from there is in it
+        const vtVec3 end = vtEnvironment_Sample(job->def->environment, path->direction);
+        light =
+            vtAdd(light, (vtVec3){end.x * path->weight.x, end.y * path->weight.y, end.z * path->weight.z});
+    }
+    return vtScale(light, job->exposure);
 }
 
 /// Adds a sample of each of the tile's pixels: the light of all paths that branch off from one at the eye.
@@ -225,8 +230,20 @@ static void runJob(Job* job)
 
 // ----------------------------------------------------------------------------------------------- picture
 
-static vtResult checkDef(const vtReferenceDef* def, vtError* error)
+/// Embree takes coordinates up to 1.8e18 and ends the program at larger ones.
+static const float farthest = 1e18f;
+
+static vtResult checkDef(const vtReference* reference, const vtReferenceDef* def, vtError* error)
 {
+    const vtVec3 eye = def->frame->view.eye;
+    const float reach = fmaxf(reference->extent, fmaxf(fabsf(eye.x), fmaxf(fabsf(eye.y), fabsf(eye.z))));
+    if (!(reach <= farthest)) {
+        return vtFail(
+            error, vt_errorGeometry,
+            "reference: scene and camera reach %g from the origin; ray tracing takes up to %g; scale "
+            "the scene down",
+            (double)reach, (double)farthest);
+    }
     if (def->samples < 0 || def->samples > VT_MAX_TRACED_SAMPLES) {
         return vtFail(error, vt_errorArgument, "samples is %d; it must be 0 to %d", def->samples,
                       VT_MAX_TRACED_SAMPLES);
@@ -261,13 +278,25 @@ static vtResult createImage(const vtReferenceDef* def, vtReferenceImage* image, 
     return vtSucceed(error);
 }
 
+/// Is there more than plain glass, which only bends and tints?
+static bool hasLooks(const vtReference* reference)
+{
+    bool any = reference->scene->lightCount > 0;
+    for (uint32_t i = 0; i < reference->objectCount; ++i) {
+        const vtPlacedObject* object = &reference->objects[i];
+        any = any || object->material->opaque ||
+              !vtMaterial_IsPlain(object->material, object->mesh->colors != NULL);
+    }
+    return any;
+}
+
 /// Objects of glass that contain the eye. Where there are too many, those of lowest precedence are left out.
 static vtMedia findEyeMedia(const vtReference* reference, vtVec3 eye)
 {
     vtMedia media = {{0}};
     for (uint32_t i = 0; i < reference->glassCount; ++i) {
-        if (vtPlacedObject_Contains(&reference->objects[i], eye)) {
-            vtMedia_Toggle(&media, i + 1);
+        if (!reference->objects[i].thin && vtPlacedObject_Contains(&reference->objects[i], eye)) {
+            vtMedia_Toggle(&media, reference->objects[i].body + 1);
         }
     }
     return media;
@@ -280,9 +309,8 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     assert(def->environment != NULL || !def->onlyPicture);
     *image = (vtReferenceImage){0};
     vtLighting lighting = {0};
-    vtResult result = checkDef(def, error);
-    const bool hasOpaque = reference->glassCount < reference->objectCount;
-    if (result == vt_ok && def->environment != NULL && hasOpaque) {
+    vtResult result = checkDef(reference, def, error);
+    if (result == vt_ok && def->environment != NULL && hasLooks(reference)) {
         result = vtCreateLighting(def->environment, &lighting, error);
     }
     if (result == vt_ok) {
@@ -293,24 +321,25 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
         return result;
     }
     const vtFrame* frame = def->frame;
-    const float tangent = tanf(frame->view.fovY * VT_PI / 360.0f);
     const int tileColumns = (frame->width + tileSide - 1) / tileSide;
     const int tileRows = (frame->height + tileSide - 1) / tileSide;
     Job job = {
         .reference = reference,
         .def = def,
         .image = image,
-        .camera = vtMakeViewCamera(&frame->view),
-        .tangentX = tangent * (float)frame->width / (float)frame->height,
-        .tangentY = tangent,
+        .camera = vtMakeCamera(frame),
         .samples = def->samples > 1 ? def->samples : 1,
         .exposure = exp2f(frame->exposure),
-        .rules = {frame->ior, vtResolveFrame(frame).maxEvents, def->fresnel},
-        .eyeMedia = findEyeMedia(reference, frame->view.eye),
+        .rules = {frame->ior, vtResolveFrame(frame).maxEvents, def->fresnel, NULL, exp2f(frame->exposure)},
+        .eyeMedia = frame->orthographicHeight > 0.0f ? (vtMedia){{0}} // its eyes are taken to be in the air
+                                                     : findEyeMedia(reference, frame->view.eye),
         .lighting = lighting,
+        .illumination = {NULL, reference->scene->lights, reference->scene->lightCount},
         .tileColumns = tileColumns,
         .tileCount = tileColumns * tileRows,
     };
+    job.illumination.lighting = &job.lighting;
+    job.rules.illumination = lighting.specular != NULL ? &job.illumination : NULL;
     atomic_init(&job.nextTile, 0);
     atomic_init(&job.failed, false);
     runJob(&job);

@@ -3,8 +3,10 @@
 // or gives vt_errorMemory, and all that it took is given back.
 #include "base/error.h"
 #include "base/memory.h"
+#include "exr_cases.h"
 #include "image/image.h"
 #include "image/pfm.h"
+#include "png_cases.h"
 #include "testing.h"
 
 static struct {
@@ -66,7 +68,7 @@ typedef struct Bytes {
 } Bytes;
 
 /// Files, made while there is memory.
-static Bytes png8, png16, hdr, pfm, model;
+static Bytes png8, png16, hdr, pfm, exr, model;
 
 static vtResult shapes(vtError* error)
 {
@@ -104,7 +106,7 @@ static vtResult environments(vtError* error)
     const uint8_t pixels[2 * 4] = {255, 128, 3, 255, 64, 200, 10, 0};
     vtResult result = vtCreateImageEnvironment(pixels, 2, 1, "x", &environment, error);
     vtDestroyEnvironment(&environment);
-    const Bytes files[] = {png8, png16, hdr};
+    const Bytes files[] = {png8, png16, hdr, pfm, exr};
     for (size_t i = 0; i < sizeof files / sizeof files[0] && result == vt_ok; ++i) {
         result = vtLoadEnvironment(files[i].data, files[i].size, "x", &environment, error);
         vtDestroyEnvironment(&environment);
@@ -121,6 +123,24 @@ static vtResult pictures(vtError* error)
         result = vtDecodeImage(files[i].data, files[i].size, "x", &image, error);
         vtFree(image.pixels);
     }
+    return result;
+}
+
+/// Noise, so that the file outgrows what is taken for it at first.
+static vtResult writing(vtError* error)
+{
+    enum { side = 64 };
+    static uint8_t pixels[3 * side * side];
+    uint32_t random = 1;
+    for (size_t i = 0; i < sizeof pixels; ++i) {
+        random = 1664525u * random + 1013904223u;
+        pixels[i] = (uint8_t)(random >> 24);
+    }
+    uint8_t* bytes = NULL;
+    size_t size = 0;
+    const vtResult result = vtEncodePng(pixels, 3, side, side, &bytes, &size, error);
+    assert_true((result == vt_ok) == (bytes != NULL) && (result == vt_ok) == (size > sizeof pixels));
+    vtFree(bytes);
     return result;
 }
 
@@ -203,9 +223,10 @@ static vtResult trace(vtError* error)
 }
 
 /// The test's own memory is never out.
-static bool readFile(const char* path, uint8_t** bytes, size_t* size, void* userData)
+static vtResult readFile(const char* path, size_t limit, uint8_t** bytes, size_t* size, void* userData,
+                         vtError* error)
 {
-    (void)userData;
+    (void)userData, (void)limit, (void)error;
     const Bytes file = strstr(path, ".png") != NULL ? png16 : (Bytes){model.data, 104};
     const long failing = memory.failing;
     memory.failing = -1;
@@ -213,7 +234,7 @@ static bool readFile(const char* path, uint8_t** bytes, size_t* size, void* user
     memory.failing = failing;
     memcpy(*bytes, file.data, file.size);
     *size = file.size;
-    return true;
+    return vt_ok;
 }
 
 static const char json[] =
@@ -295,7 +316,7 @@ static long failEach(Call* call)
 static void memoryThatIsOutIsAResult(void** state)
 {
     (void)state;
-    Call* const calls[] = {shapes, reliefs, environments, pictures, append, update, trace, models};
+    Call* const calls[] = {shapes, reliefs, environments, pictures, writing, append, update, trace, models};
     long all = 0;
     for (size_t i = 0; i < sizeof calls / sizeof calls[0]; ++i) {
         const long points = failEach(calls[i]);
@@ -369,12 +390,6 @@ static void allocatorsAreWhole(void** state)
     vtFree(block);
 }
 
-/// A grey picture of 16 bits, 2 x 2: its chunks' checksums are not looked at, its pixels are stored.
-static const uint8_t png16Bytes[] = {
-    0x89, 'P',  'N', 'G', 13, 10, 26,   10,   0, 0, 0,   13,  'I', 'H', 'D', 'R', 0,  0,   0,   2,
-    0,    0,    0,   2,   16, 0,  0,    0,    0, 0, 0,   0,   0,   0,   0,   0,   21, 'I', 'D', 'A',
-    'T',  0x78, 1,   1,   10, 0,  0xF5, 0xFF, 0, 1, 2,   3,   4,   0,   5,   6,   7,  8,   0,   0,
-    0,    0,    0,   0,   0,  0,  0,    0,    0, 0, 'I', 'E', 'N', 'D', 0,   0,   0,  0};
 static const char hdrBytes[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n"
                                "\x80\x40\x20\x80\x10\x20\x30\x80\x80\x40\x20\x81\x10\x20\x30\x82";
 
@@ -390,7 +405,21 @@ static int makeFiles(void** state)
     const float numbers[3 * 4] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
     assert_ok(vtEncodePng(pixels, 4, 3, 3, &png8.data, &png8.size, &error), error);
     assert_ok(vtEncodePfm(numbers, 2, 2, &pfm.data, &pfm.size, &error), error);
-    png16 = (Bytes){(uint8_t*)png16Bytes, sizeof png16Bytes};
+    static uint8_t png16Bytes[256];
+    const uint8_t rows[] = {0, 1, 2, 0, 3, 4, 0, 5, 6, 7, 8}; // three passes
+    png16 = (Bytes){png16Bytes, putPng(png16Bytes, &(PngCase){.width = 2,
+                                                              .height = 2,
+                                                              .bits = 16,
+                                                              .interlaced = true,
+                                                              .rows = rows,
+                                                              .rowsSize = sizeof rows})};
+    static ExrBytes exrFile;
+    putExr(&exrFile, &(ExrCase){.data = exrBox(0, 0, 3, 2),
+                                .display = exrBox(0, 0, 2, 2),
+                                .channels = "RGBA",
+                                .type = EXR_PIXEL_HALF,
+                                .compression = EXR_COMPRESSION_PIZ});
+    exr = (Bytes){exrFile.bytes, exrFile.size};
     hdr = (Bytes){(uint8_t*)hdrBytes, sizeof hdrBytes - 1};
     static uint8_t contents[104];
     const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};

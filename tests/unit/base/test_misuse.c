@@ -199,7 +199,7 @@ static void scenesOfNonsense(void** state)
         mesh = i == 5 ? (vtMesh){0} : mesh;
         object.toWorld.rows[1][1] = i == 6 ? NAN : 1.0f;
         material.opaque = i == 7;
-        material.baseColorImage = i == 7 ? 3 : -1;
+        material.maps[vt_mapBaseColor].image = i == 7 ? 3 : -1;
         assert_refused(vtValidateScene(&wrong, &error), vt_errorGeometry, "scene: ");
         vtVec3 low, high;
         vtScene_Bounds(&wrong, &low, &high);

@@ -211,7 +211,7 @@ static void builtInEnvironmentsAreTheSame(void** state)
         snprintf(source, sizeof source,
                  "uniform sampler2D u_image;\nlayout(location = 0) out uvec4 o_result;\n"
                  "void main() { vec3 d = onSphere(caseIndex());\n"
-                 "  o_result = uvec4(floatBitsToUint(environmentRadiance(%d, u_image, d)), 0u); }\n",
+                 "  o_result = uvec4(floatBitsToUint(environmentRadiance(%d, u_image, d, 0.0)), 0u); }\n",
                  kind);
         vtChunk body = {"body", source};
         evaluate(*state, (const vtChunk* const[]){&vtChunk_environment, &body, NULL}, results);
@@ -230,12 +230,51 @@ static void builtInEnvironmentsAreTheSame(void** state)
     }
 }
 
+/// A step of the ray and of the normal, and what it does to the ray behind the surface: half a difference.
+static void footprintsAreDerivatives(void** state)
+{
+    static uint32_t results[4 * size * size];
+    const vtChunk body = {
+        "body", "layout(location = 0) out uvec4 o_result;\n"
+                "vec3 bent(vec3 I, vec3 N, float eta, out bool reflected) {\n"
+                "  return bend(normalize(I), normalize(N), eta, reflected); }\n"
+                "void main() { uint i = caseIndex(); vec3 I = onSphere(i), N = onSphere(i + 90000u);\n"
+                "  N = dot(N, I) < 0.0 ? N : -N;\n"
+                "  float eta = i % 2u == 0u ? 1.0 / 1.5 : 1.5, h = 1e-3;\n"
+                "  vec3 dI = onSphere(i + 40000u), dN = onSphere(i + 60000u);\n"
+                "  dI -= dot(dI, I) * I; dN -= dot(dN, N) * N;\n"
+                "  bool reflected, r0, r1;\n"
+                "  bend(I, N, eta, reflected);\n"
+                "  vec3 change = (bent(I + h * dI, N + h * dN, eta, r1) - bent(I - h * dI, N - h * dN, eta, "
+                "r0)) / (2.0 * h);\n"
+                "  vec3 found = bendFootprint(mat2x3(dI, dI), I, N, mat2x3(dN, dN), eta, reflected)[1];\n"
+                "  vec3 place = alongSurface(mat2x3(dI, dN), I, N)[0];\n"
+                "  float c = dot(N, I), k = 1.0 - eta * eta * (1.0 - c * c);\n"
+                "  bool counts = r0 == r1 && r0 == reflected && abs(k) > 0.05 && c < -0.1;\n"
+                "  o_result = uvec4(floatBitsToUint(length(found - change) / (1.0 + length(change))),\n"
+                "    floatBitsToUint(abs(dot(place, N)) + length(cross(place - dI, I))), counts ? 1u : 0u, "
+                "reflected ? 1u : 0u); }\n"};
+    evaluate(*state, (const vtChunk* const[]){&vtChunk_optics, &vtChunk_footprint, &body, NULL}, results);
+    int counted[2] = {0, 0};
+    for (uint32_t i = 0; i < size * size; ++i) {
+        float errors[2];
+        memcpy(errors, results + 4 * (size_t)i, sizeof errors);
+        if (results[4 * (size_t)i + 2] != 0) {
+            assert_true(errors[0] < 0.01f);
+            assert_true(errors[1] < 1e-3f); // on the surface, and moved along the ray
+            ++counted[results[4 * (size_t)i + 3]];
+        }
+    }
+    assert_true(counted[0] > size * size / 3 && counted[1] > size * size / 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(opticsAreTheSame),      cmocka_unit_test(fresnelIsTheSame),
-        cmocka_unit_test(mediaAreTheSame),       cmocka_unit_test(transparencyIsTheSame),
-        cmocka_unit_test(packedNormalsComeBack), cmocka_unit_test(builtInEnvironmentsAreTheSame),
+        cmocka_unit_test(opticsAreTheSame),         cmocka_unit_test(fresnelIsTheSame),
+        cmocka_unit_test(mediaAreTheSame),          cmocka_unit_test(transparencyIsTheSame),
+        cmocka_unit_test(packedNormalsComeBack),    cmocka_unit_test(builtInEnvironmentsAreTheSame),
+        cmocka_unit_test(footprintsAreDerivatives),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);
 }

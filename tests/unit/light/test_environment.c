@@ -2,8 +2,10 @@
 #include <math.h>
 
 #include "base/math.h"
+#include "base/memory.h"
 #include "image/image.h"
 #include "light/environment.h"
+#include "light/environment_levels.h"
 #include "testing.h"
 
 /// The direction at u, v of the map.
@@ -171,6 +173,77 @@ static void decodedPixelsGiveWhatTheirFileGives(void** state)
     assert_null(decoded.pixels);
 }
 
+static vtEnvironmentLevel halved(const vtEnvironment* picture, int times)
+{
+    vtEnvironmentLevel level = {0};
+    for (int i = 0; i < times; ++i) {
+        assert_true(vtHalveEnvironment(picture, &level));
+    }
+    return level;
+}
+
+/// Mean of red over the sphere.
+static double meanOf(const float* pixels, int width, int height)
+{
+    double sum = 0.0, all = 0.0;
+    for (int i = 0; i < width * height; ++i) {
+        const double share = sin(3.14159265358979 * (i / width + 0.5) / height);
+        sum += share * (double)pixels[3 * i];
+        all += share;
+    }
+    return sum / all;
+}
+
+static void levelsKeepTheMeanOfTheSphere(void** state)
+{
+    (void)state;
+    const int sizes[][2] = {{64, 32}, {50, 25}, {37, 23}, {16, 64}};
+    for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; ++k) {
+        vtEnvironment ramp = makeRamp(sizes[k][0], sizes[k][1]);
+        for (int i = 0; i < ramp.width * ramp.height;
+             ++i) { // most of it from the row about the pole, and a ramp across
+            ramp.pixels[3 * i] = (i < ramp.width ? 10000.0f : 0.0f) + ramp.pixels[3 * i];
+        }
+        const double wanted = meanOf(ramp.pixels, ramp.width, ramp.height);
+        assert_int_equal(vtEnvironmentLevelCount(ramp.width, ramp.height), k == 0 || k == 3 ? 7 : 6);
+        for (int times = 1; times < 4; ++times) {
+            vtEnvironmentLevel level = halved(&ramp, times);
+            assert_true(level.width == ramp.width >> times && level.height == ramp.height >> times);
+            float* shown = malloc((size_t)(level.width * level.height) * 3 * sizeof(float));
+            vtWidenEnvironment(&level, shown);
+            assert_true(fabs(meanOf(level.pixels, level.width, level.height) - wanted) < 0.05 * wanted);
+            assert_true(fabs(meanOf(shown, level.width, level.height) - wanted) < 0.05 * wanted);
+            for (int i = 0; i < level.width * level.height; ++i) { // blue is 1 everywhere
+                assert_near(shown[3 * i + 2], 1.0f, 1e-4f);
+            }
+            free(shown);
+            vtFree(level.pixels);
+        }
+        vtDestroyEnvironment(&ramp);
+    }
+}
+
+/// A texel that is seen is a part of the sphere as wide as it is high: at the pole all of the row, at the
+/// equator itself.
+static void levelsAreAsWideAsTheyAreHigh(void** state)
+{
+    (void)state;
+    enum { width = 64, height = 32 };
+    vtEnvironment stripes = makeRamp(2 * width, 2 * height);
+    for (int i = 0; i < 4 * width * height; ++i) {
+        stripes.pixels[3 * i] = (float)(i / 2 % 2); // columns of level 1 in turns
+    }
+    vtEnvironmentLevel level = halved(&stripes, 1);
+    static float shown[3 * width * height];
+    vtWidenEnvironment(&level, shown);
+    for (int column = 0; column < width; ++column) {
+        assert_near(shown[3 * column], 0.5f, 0.03f);
+        assert_near(shown[3 * (width * (height / 2) + column)], (float)(column % 2), 0.01f);
+    }
+    vtFree(level.pixels);
+    vtDestroyEnvironment(&stripes);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +253,8 @@ int main(void)
         cmocka_unit_test(builtInRadianceIsUsable),
         cmocka_unit_test(environmentsLoadFromFiles),
         cmocka_unit_test(decodedPixelsGiveWhatTheirFileGives),
+        cmocka_unit_test(levelsKeepTheMeanOfTheSphere),
+        cmocka_unit_test(levelsAreAsWideAsTheyAreHigh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,60 +2,8 @@
 #include <math.h>
 #include <time.h>
 
-#include "base/math.h"
-#include "cases.h"
-#include "context/context.h"
-#include "gl/image_array.h"
-#include "gl/lighting_texture.h"
-#include "gl/program.h"
-#include "gl/scene_buffer.h"
-#include "gl/uniforms.h"
 #include "light/shading.h"
-#include "mesh/hierarchy.h"
-#include "render/object_table.h"
-#include "shaders.h"
-#include "shaders_es3/common/constants.h"
-#include "testing.h"
-
-/// Of the channel that differs most.
-static float difference(vtVec3 a, vtVec3 b)
-{
-    return fmaxf(fabsf(a.x - b.x), fmaxf(fabsf(a.y - b.y), fabsf(a.z - b.z)));
-}
-
-static vtEnvironment imageEnvironment(int width, int height, bool isSmooth)
-{
-    vtEnvironment environment;
-    vtError error;
-    uint8_t* pixels = malloc(4 * (size_t)width * (size_t)height);
-    for (int i = 0; i < width * height; ++i) {
-        const int x = i % width, y = i / width;
-        for (int k = 0; k < 4; ++k) {
-            const float wave = 0.5f + 0.4f * sinf(6.2831853f * (float)((k + 1) * x) / (float)width +
-                                                  3.0f * (float)y / (float)height);
-            pixels[4 * i + k] = isSmooth ? (uint8_t)(255.0f * wave) : 255;
-        }
-    }
-    assert_ok(vtCreateImageEnvironment(pixels, width, height, "test", &environment, &error), error);
-    free(pixels);
-    return environment;
-}
-
-static vtEnvironment builtIn(const char* name)
-{
-    vtEnvironment environment;
-    vtError error;
-    assert_ok(vtCreateEnvironment(name, &environment, &error), error);
-    return environment;
-}
-
-static vtLighting lightingOf(const vtEnvironment* environment)
-{
-    vtLighting lighting;
-    vtError error;
-    assert_ok(vtCreateLighting(environment, &lighting, &error), error);
-    return lighting;
-}
+#include "shading_cases.h"
 
 // ----------------------------------------------------------------------------------------------- lighting
 
@@ -194,34 +142,6 @@ static void lightingIsQuick(void** state)
 
 // ------------------------------------------------------------------------------------------------ surfaces
 
-/// A square in the plane z = 0 that faces +z, texture coordinates as in a picture.
-static vtScene squareScene(const vtMaterial* material, const float* colors)
-{
-    static const float positions[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
-    static const float texcoords[] = {0, 1, 1, 1, 1, 0, 0, 0};
-    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
-    const vtMeshDef def = {.positions = positions,
-                           .indices = indices,
-                           .vertexCount = 4,
-                           .indexCount = 6,
-                           .texcoords = texcoords,
-                           .colors = colors};
-    vtMesh mesh;
-    vtScene scene;
-    vtError error;
-    assert_ok(vtCreateMesh(&def, "square", &mesh, &error), error);
-    if (mesh.texcoords == NULL) { // where the mesh does not take them over yet
-        mesh.texcoords = malloc(sizeof texcoords);
-        memcpy(mesh.texcoords, texcoords, sizeof texcoords);
-    }
-    if (mesh.colors == NULL && colors != NULL) {
-        mesh.colors = malloc(12 * sizeof *colors);
-        memcpy(mesh.colors, colors, 12 * sizeof *colors);
-    }
-    assert_ok(vtCreateMeshScene(&mesh, material, &scene, &error), error);
-    return scene;
-}
-
 /// The light of the scene's first object.
 static vtVec3 shade(const vtScene* scene, const vtLighting* lighting, uint32_t triangle, float u, float v,
                     vtVec3 I)
@@ -233,15 +153,6 @@ static vtVec3 shade(const vtScene* scene, const vtLighting* lighting, uint32_t t
     const vtVec3 light = vtShadeSurface(scene, placed, lighting, triangle, u, v, I);
     free(placed);
     return light;
-}
-
-static vtMaterial opaque(float metallic, float roughness)
-{
-    vtMaterial material = vtDefaultMaterial();
-    material.opaque = true;
-    material.metallic = metallic;
-    material.roughness = roughness;
-    return material;
 }
 
 static const vtVec3 towardsBack = {0.0f, 0.0f, -1.0f};
@@ -319,7 +230,7 @@ static void checkerImageAndColorsMultiply(void** state)
     // Two texels a side: their centres give the bytes, the middle their linear mean.
     scene.images = calloc(2, sizeof *scene.images);
     scene.imageCount = 2;
-    scene.materials[0].baseColorImage = 0;
+    scene.materials[0].maps[vt_mapBaseColor].image = 0;
     static const uint8_t picture[16] = {255, 255, 255, 255, 0,   0,   0,   255,
                                         188, 188, 188, 255, 188, 188, 188, 255};
     scene.images[0] = (vtImage){.pixels = malloc(16), .width = 2, .height = 2};
@@ -332,8 +243,8 @@ static void checkerImageAndColorsMultiply(void** state)
                 3e-3f); // lower left
 
     // Green is roughness, blue metallic, both as they are.
-    scene.materials[0].baseColorImage = -1;
-    scene.materials[0].metallicRoughnessImage = 1;
+    scene.materials[0].maps[vt_mapBaseColor].image = -1;
+    scene.materials[0].maps[vt_mapMetallicRoughness].image = 1;
     scene.images[1] = (vtImage){.pixels = malloc(4), .width = 1, .height = 1};
     memcpy(scene.images[1].pixels, (const uint8_t[]){0, 51, 255, 255}, 4);
     assert_near(shade(&scene, &lighting, 0, 0.2f, 0.2f, towardsBack).x, 1.0f - 0.55f * 0.2f, 3e-3f);
@@ -348,41 +259,7 @@ static void checkerImageAndColorsMultiply(void** state)
 
 // ------------------------------------------------------------------------------------------------- the GPU
 
-enum { caseSide = 64, objects = 6 };
-
-typedef struct Gpu {
-    vtContext context;
-    vtGL gl;
-    vtSceneBuffer scene;
-    vtTexture cases, lighting, environment;
-    vtMesh leaves[3];    ///< the scene's meshes, whose triangles are those of the records, two a record
-    uint32_t records[3]; ///< of each mesh
-    GLuint vertexArray, uniforms;
-} Gpu;
-
-static void createGpu(Gpu* gpu)
-{
-    vtError error;
-    *gpu = (Gpu){0};
-    assert_ok(vtCreateContext(vt_backendAuto, &gpu->context, &error), error);
-    assert_ok(vtLoadGL(gpu->context.getProcAddress, &gpu->gl, &error), error);
-    gpu->gl.GenVertexArrays(1, &gpu->vertexArray);
-    gpu->gl.GenBuffers(1, &gpu->uniforms);
-}
-
-static void destroyGpu(Gpu* gpu)
-{
-    vtSceneBuffer_Destroy(&gpu->scene, &gpu->gl);
-    vtTexture_Destroy(&gpu->cases, &gpu->gl);
-    vtTexture_Destroy(&gpu->lighting, &gpu->gl);
-    vtTexture_Destroy(&gpu->environment, &gpu->gl);
-    for (int m = 0; m < 3; ++m) {
-        free(gpu->leaves[m].indices);
-    }
-    gpu->gl.DeleteVertexArrays(1, &gpu->vertexArray);
-    gpu->gl.DeleteBuffers(1, &gpu->uniforms);
-    vtDestroyContext(&gpu->context);
-}
+enum { objects = 6 };
 
 /// A square, four toruses and a sphere of all that materials can be, placed every way.
 static vtScene manyObjects(int imageSide)
@@ -445,13 +322,13 @@ static vtScene manyObjects(int imageSide)
             object->toWorld.rows[k][0] *= i % 2 == 0 ? -1.5f : 0.4f; // mirrored
         }
     }
-    scene.materials[0].baseColorImage = 0;
-    scene.materials[1].baseColorImage = 2;
+    scene.materials[0].maps[vt_mapBaseColor].image = 0;
+    scene.materials[1].maps[vt_mapBaseColor].image = 2;
     scene.materials[1].checker = 3.0f;
-    scene.materials[2].metallicRoughnessImage = 1;
+    scene.materials[2].maps[vt_mapMetallicRoughness].image = 1;
     scene.materials[2].metallic = scene.materials[2].roughness = 1.0f;
-    scene.materials[3].baseColorImage = 0;
-    scene.materials[3].metallicRoughnessImage = 1;
+    scene.materials[3].maps[vt_mapBaseColor].image = 0;
+    scene.materials[3].maps[vt_mapMetallicRoughness].image = 1;
     scene.materials[3].emissive = (vtVec3){0.1f, 0.0f, 0.3f};
     scene.materials[4].metallic = 1.0f;
     scene.materials[4].roughness = 0.0f;
@@ -459,120 +336,24 @@ static vtScene manyObjects(int imageSide)
     return scene;
 }
 
-/// As the renderer does; and what the records hold, for the twin on the CPU.
-static void uploadScene(Gpu* gpu, const vtScene* scene)
+/// Runs `body`, which fills o_result, over all cases. `first`: a chunk before all others, or NULL.
+static void evaluateAfter(Gpu* gpu, const vtChunk* first, const char* source, uint32_t* results)
 {
-    vtError error;
-    const vtFrame frame = vtDefaultFrame();
-    vtSceneBuffer_Destroy(&gpu->scene, &gpu->gl);
-    assert_ok(vtSceneBuffer_Create(&gpu->scene, &gpu->gl, scene, &error), error);
-    const vtCamera camera = vtMakeCamera(&frame);
-    vtWriteObjectTable(&gpu->scene, &frame, &camera);
-    vtSceneBuffer_SetTable(&gpu->scene, &gpu->gl);
-    for (int m = 0; m < 3; ++m) {
-        vtHierarchy hierarchy;
-        vtMesh* leaves = &gpu->leaves[m];
-        assert_ok(vtCreateHierarchy(&scene->meshes[m], &hierarchy, &error), error);
-        free(leaves->indices);
-        *leaves = scene->meshes[m];
-        gpu->records[m] = hierarchy.recordCount;
-        leaves->indexCount = 6 * hierarchy.recordCount;
-        leaves->indices = malloc(leaves->indexCount * sizeof *leaves->indices);
-        for (uint32_t i = 0; i < leaves->indexCount; ++i) {
-            static const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
-            leaves->indices[i] = hierarchy.corners[i / 6 * 4 + corners[i % 6]];
-        }
-        vtDestroyHierarchy(&hierarchy);
-    }
+    const vtChunk body = {"body", source};
+    const vtChunk* const chunks[] = {first,
+                                     &vtChunk_octahedral,
+                                     &vtChunk_environment,
+                                     &vtChunk_objects,
+                                     &vtChunk_records,
+                                     &vtChunk_lighting,
+                                     &vtChunk_shading,
+                                     &body};
+    evaluateChunks(gpu, chunks, sizeof chunks / sizeof chunks[0], 1, results);
 }
 
-/// One of its triangles that have an area; 2 * record, plus one for the second of a pair.
-static uint32_t pickTriangle(const Gpu* gpu, uint32_t mesh, uint32_t number)
-{
-    uint32_t triangle = number % (2 * gpu->records[mesh]);
-    const uint32_t* indices = gpu->leaves[mesh].indices;
-    while (indices[3 * triangle] == VT_NO_TRIANGLE ||
-           indices[3 * triangle + 1] == indices[3 * triangle + 2]) {
-        triangle = (triangle + 1) % (2 * gpu->records[mesh]);
-    }
-    return triangle;
-}
-
-/// An object and its triangle for each case.
-static void uploadCases(Gpu* gpu, const vtPlacedObject* placed, uint32_t (*cases)[4])
-{
-    for (uint32_t i = 0; i < caseSide * caseSide; ++i) {
-        const uint32_t mesh = placed[i % objects].meshIndex;
-        cases[i][0] = i % objects;
-        cases[i][1] = pickTriangle(gpu, mesh, hash(i + 300000u));
-        cases[i][2] = 2 * gpu->scene.geometry.items[mesh].records.first + cases[i][1];
-    }
-    vtTexture_Resize(&gpu->cases, &gpu->gl, GL_RGBA32UI, caseSide, caseSide, 0);
-    vtTexture_Bind(&gpu->cases, &gpu->gl, vt_samplerNone);
-    gpu->gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, caseSide, caseSide, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                          cases);
-}
-
-/// As src/passes/present.c does.
-static void uploadEnvironment(Gpu* gpu, const vtEnvironment* environment, const vtLighting* lighting)
-{
-    const vtGL* gl = &gpu->gl;
-    vtError error;
-    const bool isImage = environment->kind == vt_environmentImage;
-    vtTexture_Destroy(&gpu->environment, gl);
-    vtTexture_Resize(&gpu->environment, gl, GL_RGB16F, isImage ? environment->width : 1,
-                     isImage ? environment->height : 1, 0);
-    if (isImage) {
-        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, environment->width, environment->height, GL_RGB, GL_FLOAT,
-                          environment->pixels);
-    }
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    assert_ok(vtLightingTexture_Upload(&gpu->lighting, gl, lighting, &error), error);
-    const vtFrameUniforms uniforms = {.scene = {0, objects, 0, 0},
-                                      .output = {0, 0, (int)environment->kind, 0}};
-    gl->BindBufferBase(GL_UNIFORM_BUFFER, VT_FRAME_BINDING, gpu->uniforms);
-    gl->BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STATIC_DRAW);
-}
-
-/// Runs `body`, which fills o_result, over caseSide * caseSide cases.
 static void evaluate(Gpu* gpu, const char* source, uint32_t* results)
 {
-    const vtGL* gl = &gpu->gl;
-    vtError error;
-    const vtChunk body = {"body", source};
-    const vtProgramDef def = {
-        .name = "test",
-        .vertex = {&vtChunk_screen_vert},
-        .fragment = {&vtChunk_octahedral, &vtChunk_environment, &vtChunk_objects, &vtChunk_records,
-                     &vtChunk_lighting, &vtChunk_shading, &body},
-    };
-    GLuint framebuffer = 0;
-    vtProgram program = {0};
-    vtTexture target = {0};
-    vtTexture_Resize(&target, gl, GL_RGBA32UI, caseSide, caseSide, 0);
-    const vtAttachment color = {&target, 0};
-    vtProgram_Start(&program, gl, &def);
-    assert_ok(vtProgram_Finish(&program, gl, &error), error);
-    assert_ok(vtMakeFramebuffer(gl, "test", &color, 1, NULL, &framebuffer, &error), error);
-    vtBindFramebuffer(gl, framebuffer, caseSide, caseSide);
-    gl->UseProgram(program.name);
-    gl->BindVertexArray(gpu->vertexArray);
-    const vtBinding bindings[] = {{vt_samplerObjects, &gpu->scene.table},
-                                  {vt_samplerRecords, &gpu->scene.geometry.records},
-                                  {vt_samplerAttributes, &gpu->scene.geometry.attributes},
-                                  {vt_samplerImages, &gpu->scene.images},
-                                  {vt_samplerLighting, &gpu->lighting},
-                                  {vt_samplerEnvironment, &gpu->environment},
-                                  {vt_samplerNone, &gpu->cases}}; // u_cases, which is the test's own
-    vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
-    gl->ReadPixels(0, 0, caseSide, caseSide, GL_RGBA_INTEGER, GL_UNSIGNED_INT, results);
-    assert_ok(vtCheckGL(gl, "evaluating", &error), error);
-    vtProgram_Destroy(&program, gl);
-    vtDestroyFramebuffers(gl, &framebuffer, 1);
-    vtTexture_Destroy(&target, gl);
+    evaluateAfter(gpu, NULL, source, results);
 }
 
 static const char shadeBody[] =
@@ -586,7 +367,8 @@ static const char shadeBody[] =
     "void main() { uint i = uint(gl_FragCoord.y) * 64u + uint(gl_FragCoord.x);\n"
     "  float v = unit(i + 1000u); float u = (1.0 - v) * unit(i + 20000u);\n"
     "  uvec4 c = texelFetch(u_cases, ivec2(gl_FragCoord.xy), 0);\n"
-    "  vec3 light = shadeSurface(int(c.x), RecordHit(0.0, c.z, vec2(u, v)), onSphere(i), 0.0);\n"
+    "  vec3 light = shadeOpaque(int(c.x), opaqueSurface(int(c.x), RecordHit(0.0, c.z, vec2(u, v))), "
+    "onSphere(i), 0.0);\n"
     "  o_result = uvec4(floatBitsToUint(light), 0u); }\n";
 
 /// How many of the cases differ by more than 2/255, of white or of the light itself where that is brighter.
@@ -627,9 +409,9 @@ static void shadersAreTheSame(void** state)
         uint32_t glassCount;
         assert_ok(vtPlaceObjects(&scene, &placed, &glassCount, &error), error);
         uploadScene(&gpu, &scene);
-        assert_int_equal(gpu.scene.images.width, 64);
-        assert_int_equal(gpu.scene.images.layers, 3);
-        assert_int_equal(vtTexture_Bytes(&gpu.scene.images), 4 * 64 * 64 * 3 * 4 / 3);
+        assert_int_equal(gpu.scene.images.texture.width, 64);
+        assert_int_equal(gpu.scene.images.texture.layers, 2); // of three, one is not decoded
+        assert_int_equal(vtTexture_Bytes(&gpu.scene.images.texture), 4 * 64 * 64 * 2 * 4 / 3);
         vtEnvironment environments[] = {builtIn("checker"), builtIn("studio"), builtIn("sky"),
                                         imageEnvironment(128, 64, true)};
         for (int i = 0; i < 4; ++i) {
@@ -660,7 +442,7 @@ static void farSurfacesShowTheMeanOfTheImage(void** state)
     }
     scene.materials[0] = opaque(1.0f, 1.0f);
     scene.materials[0].baseColor = (vtVec3){1.0f, 1.0f, 1.0f};
-    scene.materials[0].baseColorImage = 0;
+    scene.materials[0].maps[vt_mapBaseColor].image = 0;
     scene.objects[0].toWorld = vtIdentityTransform();
     scene.objects[0].toWorld.rows[0][0] =
         3.0f; // 64 texels on 6 by 2 units: a texel is 0.054 wide in the mean
@@ -683,9 +465,10 @@ static void farSurfacesShowTheMeanOfTheImage(void** state)
         snprintf(source, sizeof source,
                  "layout(location = 0) out uvec4 o_result;\n"
                  "void main() { vec2 w = 0.5 * (floor(gl_FragCoord.xy) + 0.5) / 64.0;\n"
-                 "  vec3 light = shadeSurface(%d, RecordHit(0.0, %uu, w), vec3(0.0, 0.0, -1.0), %f);\n"
+                 "  vec3 light = shadeOpaque(%d, opaqueSurface(%d, RecordHit(0.0, %uu, w)), vec3(0.0, 0.0, "
+                 "-1.0), %f);\n"
                  "  o_result = uvec4(floatBitsToUint(light), 0u); }\n",
-                 object, triangle, (double)footprints[k]);
+                 object, object, triangle, (double)footprints[k]);
         evaluate(&gpu, source, results);
         float least = 1.0f, most = 0.0f;
         for (int i = 0; i < caseSide * caseSide; ++i) {
@@ -708,6 +491,53 @@ static void farSurfacesShowTheMeanOfTheImage(void** state)
     destroyGpu(&gpu);
 }
 
+/// Half the difference between the normals on either side is what a step along the surface does to it.
+static void normalsTurnAsTheyAreInterpolated(void** state)
+{
+    (void)state;
+    Gpu gpu;
+    vtError error;
+    createGpu(&gpu);
+    vtScene scene = manyObjects(64);
+    vtPlacedObject* placed;
+    uint32_t glassCount;
+    assert_ok(vtPlaceObjects(&scene, &placed, &glassCount, &error), error);
+    uploadScene(&gpu, &scene);
+    vtEnvironment environment = builtIn("checker");
+    vtLighting lighting = lightingOf(&environment);
+    uploadEnvironment(&gpu, &environment, &lighting);
+    static uint32_t results[4 * caseSide * caseSide], cases[caseSide * caseSide][4];
+    uploadCases(&gpu, placed, cases);
+    evaluateAfter(
+        &gpu, &vtChunk_footprint,
+        "layout(location = 0) out uvec4 o_result;\n"
+        "uniform usampler2D u_cases;\n"
+        "void main() { uvec4 c = texelFetch(u_cases, ivec2(gl_FragCoord.xy), 0);\n"
+        "  Transform t = readTransform(int(c.x)); Corners k = recordCorners(c.z);\n"
+        "  vec2 at = vec2(0.3, 0.25), step = vec2(0.004, -0.002);\n"
+        "  vec3 A = uintBitsToFloat(k.a.xyz);\n"
+        "  vec3 own = step.x * (uintBitsToFloat(k.b.xyz) - A) + step.y * (uintBitsToFloat(k.c.xyz) - A);\n"
+        "  vec3 world = own * inverse(mat3(t.x.xyz, t.y.xyz, t.z.xyz));\n"
+        "  vec3 change = 0.5 * (normalToWorld(t, cornersNormal(k, at + step)) - normalToWorld(t, "
+        "cornersNormal(k, at - step)));\n"
+        "  vec3 found = cornersTurn(t, k, at) * world;\n"
+        "  o_result = uvec4(floatBitsToUint(length(found - change)), floatBitsToUint(length(change)), 0u, "
+        "0u); }\n",
+        results);
+    int turning = 0;
+    for (int i = 0; i < caseSide * caseSide; ++i) {
+        float lengths[2];
+        memcpy(lengths, results + 4 * (size_t)i, sizeof lengths);
+        assert_true(lengths[0] < 0.02f * lengths[1] + 1e-5f);
+        turning += lengths[1] > 2e-4f;
+    }
+    assert_true(turning > caseSide * caseSide / 10);
+    free(placed);
+    vtDestroyScene(&scene);
+    vtDestroyLighting(&lighting);
+    destroyGpu(&gpu);
+}
+
 static void noImagesMakeAWhiteTexel(void** state)
 {
     (void)state;
@@ -716,8 +546,8 @@ static void noImagesMakeAWhiteTexel(void** state)
     createGpu(&gpu);
     const vtScene scene = {0};
     assert_ok(vtImageArray_Upload(&gpu.scene.images, &gpu.gl, &scene, &error), error);
-    assert_int_equal(gpu.scene.images.width, 1);
-    assert_int_equal(gpu.scene.images.layers, 1);
+    assert_int_equal(gpu.scene.images.texture.width, 1);
+    assert_int_equal(gpu.scene.images.texture.layers, 1);
     destroyGpu(&gpu);
 }
 
@@ -734,6 +564,7 @@ int main(void)
         cmocka_unit_test(checkerImageAndColorsMultiply),
         cmocka_unit_test(shadersAreTheSame),
         cmocka_unit_test(farSurfacesShowTheMeanOfTheImage),
+        cmocka_unit_test(normalsTurnAsTheyAreInterpolated),
         cmocka_unit_test(noImagesMakeAWhiteTexel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

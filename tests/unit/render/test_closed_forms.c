@@ -106,26 +106,11 @@ static vtFrame withWay(vtFrame frame, int way)
     return frame;
 }
 
-/// Unit direction through a place of the picture, in pixels from its upper left corner.
-static vtVec3 eyeRay(const vtFrame* frame, float column, float row)
-{
-    const vtCamera camera = vtMakeCamera(frame);
-    const float x = column / (float)frame->width, y = 1.0f - row / (float)frame->height;
-    const vtVec3 across = vtScale(camera.right, camera.low[0] + x * (camera.high[0] - camera.low[0]));
-    const vtVec3 up = vtScale(camera.up, camera.low[1] + y * (camera.high[1] - camera.low[1]));
-    return vtNormalize(vtAdd(camera.forward, vtAdd(across, up)));
-}
-
 /// Snell's law; N against I. Zero where there is total internal reflection.
 static vtVec3 refract(vtVec3 I, vtVec3 N, float eta)
 {
     const float c = -vtDot(I, N), k = 1.0f - eta * eta * (1.0f - c * c);
     return k < 0.0f ? (vtVec3){0, 0, 0} : vtMulAdd(vtScale(I, eta), eta * c - sqrtf(k), N);
-}
-
-static float degreesBetween(vtVec3 a, vtVec3 b)
-{
-    return atan2f(vtLength(vtCross(a, b)), vtDot(a, b)) * 180.0f / VT_PI;
 }
 
 /// Every pixel's path has so many events, goes on as it came, and leaves the glass.
@@ -136,7 +121,7 @@ static void assertStraight(Fixture* fixture, const vtFrame* frame, uint32_t even
     draw(fixture, frame);
     assert_ok(vtRenderer_ReadStates(fixture->renderer, states, &error), error);
     for (int p = 0; p < little * little; ++p) {
-        const vtVec3 ray = eyeRay(frame, (float)(p % little) + 0.5f, (float)(p / little) + 0.5f);
+        const vtVec3 ray = eyeRayAt(frame, (float)(p % little) + 0.5f, (float)(p / little) + 0.5f);
         assert_int_equal(states[p], VT_PATH_EXITED + 256 * events);
         assert_true(degreesBetween(vtMakeVec3(fixture->directions + 3 * p), ray) < 0.05f);
     }
@@ -246,7 +231,7 @@ static void pictureEnvironmentsAreThoseOfTheCpu(void** state)
         frame.view = (vtView){ahead[i], vtScale(ahead[i], 2.0f), 80.0f}; // away from the ball
         draw(fixture, &frame);
         for (int p = 0; p < little * little; ++p) {
-            const vtVec3 ray = eyeRay(&frame, (float)(p % little) + 0.5f, (float)(p / little) + 0.5f);
+            const vtVec3 ray = eyeRayAt(&frame, (float)(p % little) + 0.5f, (float)(p / little) + 0.5f);
             const vtVec3 light = vtEnvironment_Sample(&environment, ray);
             const float linear[3] = {light.x, light.y, light.z};
             for (int c = 0; c < 3; ++c) {
@@ -320,7 +305,7 @@ static void eyeWithinGlassSeesOut(void** state)
         frame.view = (vtView){{0, 0, 0.3f}, {0.1f, 0.1f, -1}, 30.0f};
         draw(fixture, &frame);
         for (int p = 0; p < little * little; ++p) {
-            const vtVec3 ray = eyeRay(&frame, (float)(p % little) + 0.5f, (float)(p / little) + 0.5f);
+            const vtVec3 ray = eyeRayAt(&frame, (float)(p % little) + 0.5f, (float)(p / little) + 0.5f);
             const vtVec3 out = refract(ray, (vtVec3){0, 0, 1}, 1.5f);
             assert_true(degreesBetween(vtMakeVec3(fixture->directions + 3 * p), out) < 0.02f);
         }
@@ -368,7 +353,7 @@ static void stretchedBallsFollowTheClosedForm(void** state)
             int compared = 0, close = 0;
             for (int p = 0; p < pictureSide * pictureSide; ++p) {
                 const vtVec3 ray =
-                    eyeRay(&frame, (float)(p % pictureSide) + 0.5f, (float)(p / pictureSide) + 0.5f);
+                    eyeRayAt(&frame, (float)(p % pictureSide) + 0.5f, (float)(p / pictureSide) + 0.5f);
                 const vtVec3 own =
                     throughEllipsoid(turned(frame.view.eye, -turn), turned(ray, -turn), axes, 1.5f);
                 const vtVec3 out = turned(own, turn);
@@ -402,7 +387,7 @@ static void samplesGoThroughTheirPlaces(void** state)
             for (int p = 0; p < little * little; ++p) {
                 const float column = (float)(p % little) + 0.5f + x, row = (float)(p / little) + 0.5f - y;
                 assert_true(degreesBetween(vtMakeVec3(fixture->directions + 3 * p),
-                                           eyeRay(&frame, column, row)) < 0.02f);
+                                           eyeRayAt(&frame, column, row)) < 0.02f);
             }
         }
     }
