@@ -17,6 +17,7 @@
 #include "relief/relief.h"
 #include "scene/objects.h"
 #include "shapes/shapes.h"
+#include "technique/technique.h"
 
 static bool isShape(const char* name)
 {
@@ -310,6 +311,19 @@ static vtResult loadObjects(const vtOptions* options, vtScene* scene, vtError* e
     return result;
 }
 
+/// Says what a technique does not draw of the scene's materials.
+static void printLooks(vtTechnique technique, const vtScene* scene)
+{
+    const vtTechniqueInfo* info = vtTechnique_Info(technique);
+    if (!vtTechnique_Row(technique)->traces && vtScene_HasLooks(scene)) {
+        fprintf(stderr,
+                "vitrine: note: technique %s draws plain materials only: no thin walls, alpha, lights, nor "
+                "pictures "
+                "but two of opaque things; exact and heightfield do\n",
+                info->id);
+    }
+}
+
 /// Whatever the command draws has what it needs.
 static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError* error)
 {
@@ -321,6 +335,8 @@ static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError*
                                                     : vtFindTechnique(vtChooseTechnique(options, scene));
     if (technique == vt_techniqueCount) {
         technique = vt_techniqueExact; // several are named, or what the command refuses later
+    } else if (!options->innerDistances) {
+        printLooks(technique, scene);
     }
     return vtPrepareScene(scene, technique, NULL, error);
 }

@@ -349,6 +349,17 @@ bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point)
     return sum > 2.0 * (double)VT_PI; // half of a full turn's 4 pi
 }
 
+bool vtScene_HasLooks(const vtScene* scene)
+{
+    bool any = scene->lightCount > 0;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtObject* object = vtScene_Object(scene, i);
+        any = any || (object != NULL && !vtMaterial_IsPlain(&scene->materials[object->material],
+                                                            scene->meshes[object->mesh].colors != NULL));
+    }
+    return any;
+}
+
 bool vtScene_HasGlass(const vtScene* scene)
 {
     bool any = false;

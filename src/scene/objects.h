@@ -79,6 +79,9 @@ bool vtScene_UsesSolid(const vtScene* scene, uint32_t mesh);
 /// its heights; meshCount: there is none.
 uint32_t vtScene_Relief(const vtScene* scene);
 
+/// Whether it has lights, or a material that is not plain (scene/material.h).
+bool vtScene_HasLooks(const vtScene* scene);
+
 /// Whether any of its objects is glass.
 bool vtScene_HasGlass(const vtScene* scene);
 
