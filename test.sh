@@ -34,7 +34,7 @@ cmake --build --preset asan
 echo "== tests, sanitizers"
 ctest --preset asan -j 2
 echo "== tests, release"
-ctest --preset release
+ctest --preset release -j 2
 
 if $all; then
   echo "== deliberate faults"
