@@ -10,7 +10,6 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, int a
     int object = hit.object;
     bool leaving = dot(look.G, I) > 0.0;
     vec3 N = leaving ? -look.N : look.N, G = leaving ? -look.G : look.G;
-    float ior = objectNumbers(object, VT_OBJECT_GLASS).x;
     vec3 covered = p.transmittance * look.base.a, beside = p.transmittance - covered;
     p.light += covered * sentLight(look, dot(N, I) < 0.0 ? N : G, I, p.position);
     vec3 share = covered * look.passes;
@@ -18,7 +17,7 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, int a
     // What is on either side.
     bool isThin = (look.flags & VT_LOOK_THIN) != 0u || object >= u_scene.x;
     Media before = media, next = media;
-    float eta = 1.0 / ior;
+    float eta = 1.0 / look.ior;
     bool isInterface = true;
     if (!isThin) {
         uint id = mediumOf(object);
@@ -36,7 +35,7 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, int a
     R = dot(R, G) > 0.0 ? R : reflect(I, G);
     vec3 F = vec3(reflected ? 1.0 : 0.0);
     if (u_scene.z != 0 && isInterface && !reflected) {
-        float cosine = -dot(n, I), smoothIor = isThin ? ior : max(eta, 1.0 / eta);
+        float cosine = -dot(n, I), smoothIor = isThin ? look.ior : max(eta, 1.0 / eta);
         F = lookReflectance(look, cosine, fresnel(cosine, eta), smoothIor, leaving && !isThin);
     }
     vec3 through = isInterface ? share * (1.0 - F) * look.base.rgb : share, mirrored = share * F;

@@ -278,18 +278,6 @@ static vtResult createImage(const vtReferenceDef* def, vtReferenceImage* image, 
     return vtSucceed(error);
 }
 
-/// Is there more than plain glass, which only bends and tints?
-static bool hasLooks(const vtReference* reference)
-{
-    bool any = reference->scene->lightCount > 0;
-    for (uint32_t i = 0; i < reference->objectCount; ++i) {
-        const vtPlacedObject* object = &reference->objects[i];
-        any = any || object->material->opaque ||
-              !vtMaterial_IsPlain(object->material, object->mesh->colors != NULL);
-    }
-    return any;
-}
-
 /// Objects of glass that contain the eye. Where there are too many, those of lowest precedence are left out.
 static vtMedia findEyeMedia(const vtReference* reference, vtVec3 eye)
 {
@@ -310,7 +298,8 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     *image = (vtReferenceImage){0};
     vtLighting lighting = {0};
     vtResult result = checkDef(reference, def, error);
-    if (result == vt_ok && def->environment != NULL && hasLooks(reference)) {
+    const bool hasOpaque = reference->glassCount < reference->objectCount;
+    if (result == vt_ok && def->environment != NULL && (hasOpaque || vtScene_HasLooks(reference->scene))) {
         result = vtCreateLighting(def->environment, &lighting, error);
     }
     if (result == vt_ok) {
