@@ -439,6 +439,21 @@ describe('pictures seen through glass do not sparkle', () => {
   const draw = (name, model, ...args) => picture(name, model, ...size, ...args);
   const flip = (a, b) => JSON.parse(vitrine(['compare', a, b, '--json']).text).flip;
 
+  test('nor are photographs blurred', () => {
+    // As in photographs, wide differences are greater than narrow ones.
+    const wave = (x, y, k) => Math.sin(k * x + 1.7 * k * k) * Math.sin(k * y + 0.6 * k * k);
+    const octaves = [1, 2, 4, 8, 16, 32, 64, 128];
+    write('photograph.png', greyPng(1024, 512, 8, (column, row) => 0.5 + 0.5 * Math.tanh(
+      octaves.reduce((sum, k) => sum + wave((2 * Math.PI * column) / 1024, (Math.PI * row) / 512, k) / Math.sqrt(k), 0))));
+    const words = ['--no-fresnel', '-e', './photograph.png'];
+    for (const model of ['sphere', 'knot']) {
+      draw('truth.png', model, ...view(0), ...words, '-t', 'reference', '--samples', '64');
+      for (const technique of ['exact', 'reference']) draw(`${technique}.png`, model, ...view(0), ...words, '-t', technique);
+      const error = (name) => flip(`${name}.png`, 'truth.png');
+      assert.ok(error('exact') < error('reference'), `${model}: ${error('exact')} of ${error('reference')}`);
+    }
+  });
+
   for (const model of ['sphere', 'knot']) {
     test(model, () => {
       write('noise.png', noise);
@@ -450,7 +465,8 @@ describe('pictures seen through glass do not sparkle', () => {
       }
       draw('still.png', model, ...view(0), '--samples', '64');
       const error = (name) => flip(`${name}.png`, 'truth.png'), change = (name) => flip(`${name}.png`, `${name}-moved.png`);
-      assert.ok(error('exact') < 0.6 * error('reference'), `${error('exact')} of ${error('reference')}`);
+      // Half of what a pixel covers is blurred: pictures that have wide parts, too, come out worse by all of it.
+      assert.ok(error('exact') < 0.75 * error('reference'), `${error('exact')} of ${error('reference')}`);
       assert.ok(error('layered') < 0.8 * error('reference'), `${error('layered')} of ${error('reference')}`);
       assert.ok(change('exact') < 0.6 * change('reference'), `${change('exact')} of ${change('reference')}`);
       assert.ok(change('layered') < 0.8 * change('reference'), `${change('layered')} of ${change('reference')}`);

@@ -33,9 +33,9 @@ mat2x3 bendFootprint(mat2x3 direction, vec3 I, vec3 N, mat2x3 turn, float eta, b
     float c = dot(N, I);
     vec2 change = I * turn + N * direction; // of c
     float s = sqrt(max(1.0 - eta * eta * (1.0 - c * c), 1e-4));
-    float a = reflected ? 1.0 : eta, b = reflected ? 2.0 * c : eta * c + s; // the new direction is a I - b N
-    vec2 more = reflected ? 2.0 * change : (eta + eta * eta * c / s) * change;
-    return a * direction - outerProduct(N, more) - b * turn;
+    float a = mix(eta, 1.0, reflected), b = mix(eta * c + s, 2.0 * c, reflected); // the new direction is a I - b N
+    float more = mix(eta + eta * eta * c / s, 2.0, reflected);
+    return a * direction - outerProduct(N, more * change) - b * turn;
 }
 
 // How wide the parallelogram between the steps is: between the side of a square as large and the longer axis of the

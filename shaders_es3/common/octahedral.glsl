@@ -13,6 +13,6 @@ vec3 unpackNormal(uint bits)
     vec2 e = unpackSnorm2x16(bits);
     vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
     float fold = max(-n.z, 0.0);
-    n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
+    n.xy -= fold * (2.0 * step(0.0, n.xy) - 1.0); // no ?: here: each in a loop doubles what SwiftShader takes to compile
     return normalize(n);
 }

@@ -99,12 +99,16 @@ vec3 environmentSky(vec3 d)
     return min(light, vec3(50.0));
 }
 
+// How much of the covered angle is blurred: half of it, since the two blended levels blur as much again, and never more
+// than 0.03 radians, since beyond that a path's neighbours go elsewhere than its steps say. (method.md has the errors.)
+const float BLURRED = 0.5, MOST_BLURRED = 0.03;
+
 // Row 0 of the texture is the picture's top row, so t runs against v. The texture repeats in s and clamps in
 // t; the level is named because derivatives jump at the seam and where paths part. `width`: the angle that is covered.
 vec3 environmentImage(highp sampler2D image, vec3 d, float width)
 {
     vec2 uv = environmentCoordinates(d);
-    float texels = width * float(textureSize(image, 0).y) / ENVIRONMENT_PI;
+    float texels = min(BLURRED * width, MOST_BLURRED) * float(textureSize(image, 0).y) / ENVIRONMENT_PI;
     return textureLod(image, vec2(uv.x, 1.0 - uv.y), log2(max(texels, 1.0))).rgb;
 }
 
