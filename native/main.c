@@ -17,7 +17,8 @@ static void printUsage(void)
         "  vitrine compare A B [options]               measure a picture or directions against the truth\n"
         "  vitrine view MODEL [options]                turn the object in a window\n"
         "  vitrine inspect FILE [--json]               what is in a glTF file, and what of it is drawn\n"
-        "  vitrine list                                techniques, shapes, reliefs, environments\n"
+        "  vitrine list                                techniques, shapes, reliefs, kinds of glass, "
+        "environments\n"
         "  vitrine list --settings                     the settings of a frame, as JSON\n"
         "  vitrine list --gltf                         what of glTF is drawn, as a Markdown table\n"
         "  vitrine COMMAND --help                      the options of each\n"
@@ -45,6 +46,12 @@ static void printList(void)
     printf("reliefs:\n");
     for (int i = 0; vtReliefPatternName(i) != NULL; ++i) {
         printf("  %-14s %s\n", vtReliefPatternName(i), vtReliefPatternSummary(i));
+    }
+    printf("kinds of glass:\n");
+    const vtGlassInfo* glass;
+    for (int i = 0; (glass = vtGlass_Info(i)) != NULL; ++i) {
+        printf("  %-14s index %g, Abbe number %g; %s\n", glass->name, (double)glass->ior, (double)glass->abbe,
+               glass->source);
     }
     printf("environments:\n");
     for (int i = 0; vtEnvironmentName(i) != NULL; ++i) {

@@ -289,19 +289,22 @@ typedef struct vtMaterial {
     /// Kay & Greenberg 1979, equation 6). World units; 0: nothing is absorbed. Default 1, 1, 1 and 0.
     vtVec3 attenuationColor;
     float attenuationDistance;
-    vtVec3 baseColor; ///< opaque. Default 0.8, 0.8, 0.8
-    float metallic;   ///< 0 to 1. Default 0
-    float roughness;  ///< 0 to 1; of glass it is read, kept, and drawn in highlights of lights alone. Default
-                      ///< 1 of opaque things; 0 of glass
-    vtVec3 emissive;  ///< light of its own, 0 and above. Default 0
-    vtAlpha alphaMode;                 ///< default vt_alphaOpaque
+    vtVec3 baseColor;  ///< opaque. Default 0.8, 0.8, 0.8
+    float metallic;    ///< 0 to 1. Default 0
+    float roughness;   ///< 0 to 1: alpha of GGX is its square; below 0, the default: 1 of opaque things, 0 of
+                       ///< glass, where only some techniques draw it
+    vtVec3 emissive;   ///< light of its own, 0 and above. Default 0
+    vtAlpha alphaMode; ///< default vt_alphaOpaque
     float alpha, alphaCutoff;          ///< 0 to 1. Default 1 and 0.5
     float specular;                    ///< 0 to 1: share of what it reflects at its surface. Default 1
     vtVec3 specularColor;              ///< of that, seen straight on, 0 and above. Default 1, 1, 1
     float iridescence, iridescenceIor; ///< a film: its share, 0 to 1, and index, 1 and above. Default 0, 1.3
     float iridescenceMin, iridescenceMax; ///< its thickness where its map is 0 and 1, nanometres. Default
                                           ///< 100, 400; without a map it is the latter
-    float dispersion; ///< 20 over the Abbe number; read and kept, not drawn yet. Default 0
+    /// 20 over the Abbe number of the index (KHR_materials_dispersion), 0 and above: the index at a
+    /// wavelength of L nanometres is ior + (ior - 1) dispersion / 20 (523655 / L^2 - 1.5168). Only some
+    /// techniques draw it. Default 0
+    float dispersion;
     float normalScale, occlusionStrength; ///< of their maps. Default 1
     vtMap maps[vt_mapCount];              ///< by vtMapUse; default: no picture
     float checker; ///< opaque: squares along a unit of texture coordinates, alternately dark; 0, the default:
@@ -421,6 +424,18 @@ typedef struct vtModelDef {
 /// all of them are made glass of their index of refraction. Primitives of one glTF mesh with the same
 /// material make one mesh; nodes that share it are instances. On failure *scene is zeroed.
 VT_API vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error);
+
+/// A kind of glass, by its numbers at the yellow line of helium (587.6 nm).
+typedef struct vtGlassInfo {
+    const char* name;
+    float ior;          ///< n_d
+    float abbe;         ///< V_d = (n_d - 1) / (n_F - n_C); vtMaterial.dispersion is 20 over it
+    const char* source; ///< of the numbers; "" in builds for web pages
+} vtGlassInfo;
+/// water crown flint sapphire zircon diamond moissanite, by index; NULL past the end.
+VT_API const vtGlassInfo* vtGlass_Info(int index);
+/// By name; NULL where there is none such.
+VT_API const vtGlassInfo* vtFindGlass(const char* name);
 
 // ----------------------------------------------------------------------------------------- environment
 
@@ -593,8 +608,11 @@ typedef struct vtFrame {
     float orthographicHeight;
     vtTechnique technique;
     vtOutput output;
-    int layer;    ///< for the layer outputs: 0 (nearest) to layers - 1
-    float ior;    ///< index of refraction of all glass, 1 to 4; 0, the default: each object's own
+    int layer; ///< for the layer outputs: 0 (nearest) to layers - 1
+    float ior; ///< index of refraction of all glass, 1 to 4; 0, the default: each object's own
+    /// Of all glass, as vtMaterial has them: roughness 0 to 1, dispersion 0 to 20; -1, the default: each
+    /// object's own
+    float roughness, dispersion;
     bool fresnel; ///< Fresnel reflection; without it paths only refract, or reflect where they must. Default
                   ///< true
     /// exact, Fresnel reflection: how often light that left a path is followed, 1 to VT_MAX_BRANCHES (each

@@ -64,7 +64,7 @@ describe('words', () => {
     assert.match(vitrine(['--help']).text, /vitrine render MODEL -o OUT\.png/);
     assert.match(vitrine(['--version']).text, /^vitrine \d+\.\d+\.\d+\n$/);
     const list = vitrine(['list']).text;
-    for (const word of ['kay-linear', 'kay-nonlinear', 'kay-thickness', 'single', 'wyman', 'oliveira', 'layered', 'sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'checker', 'studio', 'sky', 'ripples', 'hammered', 'fluted', 'lens-array']) {
+    for (const word of ['kay-linear', 'kay-nonlinear', 'kay-thickness', 'single', 'wyman', 'oliveira', 'layered', 'sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'checker', 'studio', 'sky', 'ripples', 'hammered', 'fluted', 'lens-array', 'moissanite     index 2.648, Abbe number 27.1; ']) {
       assert.ok(list.includes(word), word);
     }
     const help = vitrine(['render', '--help']);
@@ -100,14 +100,14 @@ describe('words', () => {
     const { attributes } = await import(`data:text/javascript;base64,${source}`);
     const shared = attributes.filter(({ attribute }) => rows.some(({ name }) => name === attribute));
     assert.deepEqual(shared.map(({ attribute }) => attribute),
-      ['exposure', 'ior', 'fresnel', 'technique', 'preset', 'layers', 'steps', 'max-events', 'output', 'layer', 'samples']);
+      ['exposure', 'ior', 'roughness', 'dispersion', 'fresnel', 'technique', 'preset', 'layers', 'steps', 'max-events', 'output', 'layer', 'samples']);
     for (const row of shared) {
       const { attribute, type, min, max, integer = false, values } = row;
       if (attribute === 'exposure' || attribute === 'technique') continue; // a factor; an id
       const setting = rows.find(({ name }) => name === attribute);
       if (type === 'enum') assert.deepEqual(values, setting.words, attribute);
       else assert.deepEqual([min, max, integer], [setting.least, setting.most, setting.kind === 'integer'], attribute);
-      const value = type === 'enum' ? values.indexOf(row.default) : row.default ?? 0;
+      const value = type === 'enum' ? values.indexOf(row.default) : row.default ?? (['roughness', 'dispersion'].includes(attribute) ? -1 : 0);
       if (attribute !== 'samples') assert.equal(value, setting.default, attribute); // the element adds 64, one by one
     }
     const ids = vitrine(['list']).text.split('shapes:')[0].match(/^  [a-z-]+/gm).map((line) => line.trim());
@@ -229,6 +229,12 @@ describe('bad input', () => {
     refuses(render('sphere', '--steps', '0'), ['--steps is 0', 'from 1 to 1000']);
     refuses(render('sphere', '--ior', '0.5'), ['--ior is 0.5', 'from 1 to 4']);
     refuses(render('sphere', '--ior', 'nan'), ['--ior', 'number']);
+    refuses(render('sphere', '--roughness', '1.5'), ['--roughness is 1.5', 'from 0 to 1']);
+    refuses(render('sphere', '--roughness', '-1'), ['--roughness is -1', 'from 0 to 1']);
+    refuses(render('sphere', '--dispersion', '21'), ['--dispersion is 21', 'from 0 to 20']);
+    refuses(render('sphere', '--dispersion', 'abbe:0.5'), ['--dispersion is 0.5', 'from 1 to 1000']);
+    refuses(render('sphere', '--dispersion', 'abbe:'), ["--dispersion is ''", 'a number']);
+    refuses(render('sphere', '--glass', 'window'), ["--glass is 'window', which is unknown", 'vitrine list']);
     refuses(render('sphere', '--fov', '200'), ['--fov is 200', 'from 1 to 170']);
     refuses(render('sphere', '--camera', '1,2'), ['--camera', 'X,Y,Z']);
     refuses(render('sphere', '--camera', '0,0,0', '--target', '0,0,0'), ['stands on its target']);
@@ -331,6 +337,28 @@ describe('objects', () => {
     }
   });
 
+  test('roughness, dispersion and kinds of glass, of all objects and of each', () => {
+    const draw = (...args) => picture('material.png', ...args, '-r', '24,24', '-t', 'reference', '--camera', '1,1,4', '--target', '0,0,0');
+    const plain = draw(...object('cube'));
+    for (const keys of ['roughness=0', 'dispersion=0', 'glass', 'attenuation-color=0.5,0.5,0.5,attenuation-distance=0']) {
+      assert.ok(draw(...object(`cube:${keys}`)).equals(plain), keys);
+    }
+    const same = {
+      'roughness=0.4': ['--roughness', '0.4'], 'dispersion=0.5': ['--dispersion', '0.5'], 'glass=flint': ['--glass', 'flint'],
+      [`ior=1.62,dispersion=${20 / 36.37}`]: ['--glass', 'flint'], 'dispersion=0.8': ['--dispersion', 'abbe:25'], 'glass=flint,ior=1.5': ['--glass', 'flint', '--ior', '1.5'],
+      'glass=diamond,dispersion=0': ['--ior', '2.417'],
+    };
+    for (const [keys, options] of Object.entries(same)) {
+      const one = draw(...object(`cube:${keys}`));
+      assert.ok(one.equals(draw('cube', ...options)), keys);
+      assert.ok(!one.equals(plain), keys);
+    }
+    assert.ok(draw(...object('cube:absorb=0.5,0.9,0.5,distance=2')).equals(draw(...object('cube:attenuation-color=0.5,0.9,0.5,attenuation-distance=2'))));
+    assert.ok(draw(...object('cube:roughness=0.4'), '--roughness', '0').equals(plain));
+    const { error } = vitrine(['render', 'sphere', ...small, '-o', 'note.png', '-t', 'layered', '--roughness', '0.2', '--dispersion', '0.3']);
+    assert.match(error, /technique layered draws no roughness and dispersion of glass; reference does/);
+  });
+
   test('what overlaps: the highest priority counts', () => {
     const pair = (one, other) => picture('pair.png', ...object(`sphere${one}`, `cube:at=0.8,0,0,ior=2${other}`), ...small);
     const smaller = pair('', ''); // the cube's volume
@@ -341,7 +369,11 @@ describe('objects', () => {
 
   test('keys that are wrong', () => {
     const bad = {
-      'sphere:size=2': ["--object 'sphere:size=2' has the key 'size', which is unknown; the keys are ior, at, scale,", 'checker, thin and image'],
+      'sphere:size=2': ["--object 'sphere:size=2' has the key 'size', which is unknown; the keys are ior, at, scale,", 'checker, thin, dispersion and image'],
+      'sphere:roughness=2': ["roughness is '2'; it must be a number from 0 to 1"],
+      'sphere:dispersion=-1': ["dispersion is '-1'; it must be a number from 0 to 20"],
+      'sphere:glass=window': ["glass is 'window'; it must be one of water, crown, flint", 'or stand alone'],
+      'sphere:attenuation-distance=-1': ["distance is '-1'"],
       'sphere:': ["the key ''"],
       'sphere:ior=5': ["ior is '5'; it must be a number from 0.25 to 4"],
       'sphere:ior=0.2': ["ior is '0.2'"],

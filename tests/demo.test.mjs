@@ -173,7 +173,7 @@ describe('the demo page', { skip }, () => {
       quality: 'low', exposure: '1', fov: '30', theme: 'light',
     });
 
-    for (const [name, ior] of [['Water', '1.333'], ['Crown glass', '1.523'], ['Flint', '1.62'], ['Sapphire', '1.77'], ['Diamond', '2.417']]) {
+    for (const [name, ior] of [['Water', '1.333'], ['Crown glass', '1.517'], ['Flint', '1.62'], ['Sapphire', '1.768'], ['Diamond', '2.417']]) {
       await page.locator('#glasses').getByRole('button', { name }).click();
       assert.equal(await page.inputValue('#ior'), ior);
       assert.equal(await page.getAttribute('vitrine-viewer', 'ior'), ior);

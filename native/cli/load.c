@@ -15,6 +15,7 @@
 #include "image/image.h"
 #include "mesh/height_field.h"
 #include "relief/relief.h"
+#include "scene/material.h"
 #include "scene/objects.h"
 #include "shapes/shapes.h"
 #include "technique/technique.h"
@@ -324,6 +325,26 @@ static void printLooks(vtTechnique technique, const vtScene* scene)
     }
 }
 
+/// Says that a technique draws no roughness or dispersion, where glass has it.
+static void printGlass(vtTechnique technique, const vtScene* scene, const vtFrame* frame)
+{
+    const vtTechniqueRow* row = vtTechnique_Row(technique);
+    bool rough = false, disperses = false;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtMaterial* material = &scene->materials[scene->objects[i].material];
+        rough |= !material->opaque && vtMaterial_Roughness(material, frame->roughness) > 0.0f;
+        disperses |= !material->opaque && vtMaterial_Dispersion(material, frame->dispersion) > 0.0f;
+    }
+    rough &= !row->roughness;
+    disperses &= !row->dispersion;
+    if (rough || disperses) {
+        fprintf(stderr, "vitrine: note: technique %s draws no %s of glass; reference does\n", row->info.id,
+                rough && disperses ? "roughness and dispersion"
+                : rough            ? "roughness"
+                                   : "dispersion");
+    }
+}
+
 /// Whatever the command draws has what it needs.
 static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError* error)
 {
@@ -337,6 +358,7 @@ static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError*
         technique = vt_techniqueExact; // several are named, or what the command refuses later
     } else if (!options->innerDistances) {
         printLooks(technique, scene);
+        printGlass(technique, scene, &options->frame);
     }
     return vtPrepareScene(scene, technique, NULL, error);
 }

@@ -60,7 +60,11 @@ static const Option table[] = {
     SETTING("refine", SCENE),
     SETTING("max-events", SCENE),
     SETTING("layer-size", SCENE),
+    {"glass", 0, kindText, AT(glass), 0, 0, "NAME",
+     "index and dispersion of all glass are those of this kind, see 'vitrine list' (none)", SCENE},
     SETTING("ior", SCENE),
+    SETTING("roughness", SCENE),
+    SETTING("dispersion", SCENE),
     {"relief", 0, kindNumber, AT(relief), 0, 10, "DEPTH",
      "MODEL is a relief: its depth from black to white (0.1; a built-in one's own)", SCENE | RAYS},
     {"slab", 0, kindNumber, AT(slab), 0.001, 10, "THICKNESS", "a relief's glass behind black (0.1)",
@@ -261,6 +265,16 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     }
     if (options->fresnelGiven && options->noFresnel) {
         return vtFail(error, vt_errorArgument, "--fresnel and --no-fresnel contradict each other; give one");
+    }
+    const vtGlassInfo* glass = vtFindGlass(options->glass);
+    if (options->glass != NULL && glass == NULL) {
+        return vtFail(error, vt_errorArgument, "--glass is '%.100s', which is unknown; see 'vitrine list'",
+                      options->glass);
+    }
+    if (glass != NULL) { // a number that is given goes before it
+        vtFrame* chosen = &options->frame;
+        chosen->ior = chosen->ior > 0.0f ? chosen->ior : glass->ior;
+        chosen->dispersion = chosen->dispersion >= 0.0f ? chosen->dispersion : 20.0f / glass->abbe;
     }
     // The other commands compare strict paths.
     options->fresnel = !options->noFresnel && (command == vt_commandRender || command == vt_commandView);

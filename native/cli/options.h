@@ -22,6 +22,7 @@ typedef struct vtOptions {
     const char* technique;
     const char* root; ///< a folder around the models'
     const char *walls, *variant;
+    const char* glass; ///< a kind of glass
     const char* backend;
     const char* directions;
     const char* layerSheet;

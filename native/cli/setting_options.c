@@ -64,10 +64,25 @@ static vtResult readWord(const vtSetting* setting, const char* text, vtFrame* fr
     return vtFail(error, vt_errorArgument, "--%s is '%s'; it must be %s", setting->name, text, list);
 }
 
+/// A dispersion given by the Abbe number, "abbe:59".
+static vtResult readAbbe(const vtSetting* setting, const char* text, vtFrame* frame, vtError* error)
+{
+    const vtRange range = {1.0, 1000.0, false};
+    double abbe;
+    vtResult result = vtReadOption(setting->name, text, &range, 1, &abbe, error);
+    if (result == vt_ok) {
+        vtSetting_Set(setting, frame, 20.0 / abbe);
+    }
+    return result;
+}
+
 vtResult vtReadSetting(const vtSetting* setting, const char* text, vtFrame* frame, vtError* error)
 {
     if (setting->words != NULL) {
         return readWord(setting, text, frame, error);
+    }
+    if (setting->offset == offsetof(vtFrame, dispersion) && strncmp(text, "abbe:", 5) == 0) {
+        return readAbbe(setting, text + 5, frame, error);
     }
     const bool isVector = setting->kind == vt_settingVector;
     const vtRange range = vtRangeOfSetting(setting);

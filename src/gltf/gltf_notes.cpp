@@ -51,14 +51,6 @@ static void noteMaterials(Loader& loader)
             loader.noteIgnored("%s of %s", feature->name, counted(count, "material").c_str());
         }
     }
-    size_t rough = 0;
-    for (uint32_t i = 0; i < loader.scene->materialCount; ++i) {
-        const vtMaterial& material = loader.scene->materials[i];
-        rough += !material.opaque && material.roughness > 0.0f;
-    }
-    if (rough > 0) {
-        loader.noteIgnored("roughness of %s of glass", counted(rough, "material").c_str());
-    }
 }
 
 /// What was dropped unseen of the whole file.

@@ -196,7 +196,7 @@ vtLook vtLookAt(const vtScene* scene, const vtPlacedObject* object, uint32_t tri
         .specularColor = multiply(m->specularColor, (vtVec3){glossy.r, glossy.g, glossy.b}),
         .specular = m->specular * readMap(scene, m, vt_mapSpecular, at).a,
         .metallic = m->metallic * share.b,
-        .roughness = m->roughness * share.g,
+        .roughness = vtMaterial_Roughness(m, -1.0f) * share.g,
         .occlusion = 1.0f + m->occlusionStrength * (readMap(scene, m, vt_mapOcclusion, at).r - 1.0f),
         .film = m->iridescence * readMap(scene, m, vt_mapIridescence, at).r,
         .filmIor = m->iridescenceIor,

@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "gl/material_table.h"
 #include "scene/camera.h"
+#include "scene/material.h"
 #include "shaders_es3/common/constants.h"
 #include "technique/technique.h"
 
@@ -23,9 +24,10 @@ static void writeBox(const vtPlacedObject* placed, float share, uint32_t* words)
     writeNumbers(words, VT_OBJECT_HIGH, high.x + margin, high.y + margin, high.z + margin, 0.0f);
 }
 
-/// `ior`: of all glass; 0: each object's own. `row`: of the table of materials.
-static void writeMaterial(const vtObjectBuffer* object, float ior, uint32_t row, uint32_t* words)
+/// `row`: of the table of materials.
+static void writeMaterial(const vtObjectBuffer* object, const vtFrame* frame, uint32_t row, uint32_t* words)
 {
+    const float ior = frame->ior;
     const vtMaterial* material = &object->material;
     const vtVec3 absorption = object->placed.absorption, emissive = material->emissive;
     const vtVec3 color = material->opaque ? material->baseColor : material->tint;
@@ -35,7 +37,8 @@ static void writeMaterial(const vtObjectBuffer* object, float ior, uint32_t row,
                  absorption.y, absorption.z);
     writeNumbers(words, VT_OBJECT_COLOR, color.x, color.y, color.z, 0.0f);
     words[4 * VT_OBJECT_COLOR + 3] = object->firstAttribute;
-    writeNumbers(words, VT_OBJECT_SURFACE, material->metallic, material->roughness, material->checker,
+    writeNumbers(words, VT_OBJECT_SURFACE, material->metallic,
+                 vtMaterial_Roughness(material, frame->roughness), material->checker,
                  (float)object->placed.body);
     writeNumbers(words, VT_OBJECT_EMISSIVE, emissive.x, emissive.y, emissive.z, 0.0f);
     words[4 * VT_OBJECT_EMISSIVE + 3] = row;
@@ -89,7 +92,7 @@ void vtWriteObjectTable(const vtSceneBuffer* scene, const vtFrame* frame, const 
         // A little more than the box: a ray that starts on its side is within it. Layers are widened by whole
         // texels (search_layered.glsl).
         writeBox(&object->placed, peeled ? 0.0f : 1e-5f, words);
-        writeMaterial(object, frame->ior, vtMaterialTable_First(scene->lightCount) + i, words);
+        writeMaterial(object, frame, vtMaterialTable_First(scene->lightCount) + i, words);
         writeRecords(geometry, object->bothSides, words);
         if (byHeights) {
             const float cell = geometry->heights.cell;

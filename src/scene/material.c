@@ -19,7 +19,7 @@ vtMaterial vtDefaultMaterial(void)
         .transmission = 1.0f,
         .attenuationColor = {1.0f, 1.0f, 1.0f},
         .baseColor = {0.8f, 0.8f, 0.8f},
-        .roughness = 1.0f,
+        .roughness = -1.0f,
         .alpha = 1.0f,
         .alphaCutoff = 0.5f,
         .specular = 1.0f,
@@ -79,6 +79,7 @@ bool vtMaterial_Check(const vtMaterial* material, const char** what, float* valu
     } numbers[] = {
         {"an index of refraction", material->ior == 0.0f || material->opaque ? 1.0f : material->ior, 0.25f,
          4.0f},
+        {"a roughness", material->roughness < 0.0f ? 0.0f : material->roughness, 0.0f, 1.0f},
         {"a transmission", material->transmission, 0.0f, 1.0f},
         {"an alpha", material->alpha, 0.0f, 1.0f},
         {"a specular share", material->specular, 0.0f, 1.0f},

@@ -11,6 +11,19 @@ static inline float vtMaterial_Index(const vtMaterial* material)
     return material->ior == 0.0f ? 1.0f : material->opaque && !good ? 1.5f : material->ior;
 }
 
+/// Its roughness, where it has no picture of it. `given`: of all glass; below 0: each material's own.
+static inline float vtMaterial_Roughness(const vtMaterial* material, float given)
+{
+    const float own = material->roughness >= 0.0f ? material->roughness : material->opaque ? 1.0f : 0.0f;
+    return given >= 0.0f && !material->opaque ? given : own;
+}
+
+/// The same of its dispersion.
+static inline float vtMaterial_Dispersion(const vtMaterial* material, float given)
+{
+    return material->opaque ? 0.0f : given >= 0.0f ? given : material->dispersion;
+}
+
 /// Is the picture of colours, sRGB? Else it is of numbers.
 static inline bool vtMapUse_IsColor(vtMapUse use)
 {

@@ -29,8 +29,15 @@ static const vtObjectKeyInfo keys[vt_keyCount] = {
     [vt_keyRoughness] = {"roughness", 1, 1, 0, 1, 0},
     [vt_keyChecker] = {"checker", 0, 1, 0, 1000, 8},
     [vt_keyThin] = {"thin", 0, 0, 0, 0, 0},
+    [vt_keyDispersion] = {"dispersion", 1, 1, 0, 20, 0},
     [vt_keyImage] = {"image", 0, 0, 0, 0, 0},
 };
+
+/// What glTF calls them.
+static const struct {
+    const char* name;
+    vtObjectKey key;
+} otherNames[] = {{"attenuation-color", vt_keyAbsorb}, {"attenuation-distance", vt_keyDistance}};
 
 const vtObjectKeyInfo* vtObjectKey_Info(vtObjectKey key)
 {
@@ -124,6 +131,24 @@ static vtResult storeText(const Text* text, const char* value, vtObjectSpec* spe
     return vt_ok;
 }
 
+/// The kind of glass that the key has.
+static vtResult storeKind(const Text* text, const char* value, vtObjectSpec* spec, vtError* error)
+{
+    spec->kind = vtFindGlass(value);
+    spec->given |= 1u << vt_keyGlass;
+    if (spec->kind != NULL) {
+        return vt_ok;
+    }
+    char names[160] = "";
+    for (int i = 0; vtGlass_Info(i) != NULL; ++i) {
+        const size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", i > 0 ? ", " : "", vtGlass_Info(i)->name);
+    }
+    return vtFail(error, vt_errorArgument,
+                  "%s '%.200s': glass is '%.60s'; it must be one of %s, or stand alone", text->option,
+                  text->whole, value, names);
+}
+
 /// Reads the value, numbers between commas; NULL: there was no '='.
 static vtResult storeValue(const Text* text, vtObjectKey key, const char* value, vtObjectSpec* spec,
                            vtError* error)
@@ -174,12 +199,16 @@ static vtResult parsePart(const Text* text, char* part, vtObjectSpec* spec, vtEr
         *value++ = '\0';
     }
     int key = 0;
+    for (size_t i = 0; i < sizeof otherNames / sizeof otherNames[0]; ++i) {
+        part = strcmp(otherNames[i].name, part) == 0 ? (char*)keys[otherNames[i].key].name : part;
+    }
     while (key < vt_keyCount && strcmp(keys[key].name, part) != 0) {
         ++key;
     }
-    return key == vt_keyCount   ? failKey(text, part, error)
-           : key == vt_keyImage ? storeText(text, value, spec, error)
-                                : storeValue(text, (vtObjectKey)key, value, spec, error);
+    return key == vt_keyCount                    ? failKey(text, part, error)
+           : key == vt_keyImage                  ? storeText(text, value, spec, error)
+           : key == vt_keyGlass && value != NULL ? storeKind(text, value, spec, error)
+                                                 : storeValue(text, (vtObjectKey)key, value, spec, error);
 }
 
 /// Cuts the keys into parts: at a comma, unless a number follows that goes on with a value.
@@ -253,9 +282,18 @@ static void applyToMaterial(const vtObjectSpec* spec, vtMaterial* material)
 {
     const bool opaque = isGiven(spec, vt_keyOpaque) || isGiven(spec, vt_keyColour) ||
                         isGiven(spec, vt_keyChecker) || isGiven(spec, vt_keyImage);
+    if (material->opaque && isGiven(spec, vt_keyGlass)) { // clear, unless more is given
+        material->roughness = -1.0f;
+        material->maps[vt_mapMetallicRoughness] = vtDefaultMap();
+    }
     material->opaque = (material->opaque || opaque) && !isGiven(spec, vt_keyGlass);
+    if (spec->kind != NULL) {
+        material->ior = spec->kind->ior;
+        material->dispersion = 20.0f / spec->kind->abbe;
+    }
     material->thin = !material->opaque && (material->thin || isGiven(spec, vt_keyThin));
     copyNumber(spec, vt_keyIor, &material->ior);
+    copyNumber(spec, vt_keyDispersion, &material->dispersion);
     copyColor(spec, vt_keyTint, &material->tint);
     copyColor(spec, vt_keyAbsorb, &material->attenuationColor);
     if (isGiven(spec, vt_keyAbsorb) && !(material->attenuationDistance > 0.0f)) {

@@ -26,7 +26,8 @@ typedef enum vtObjectKey {
     vt_keyRoughness,
     vt_keyChecker,
     vt_keyThin,
-    vt_keyImage, ///< the only one whose value is text
+    vt_keyDispersion,
+    vt_keyImage, ///< its value is text; of vt_keyGlass it can be
     vt_keyCount,
 } vtObjectKey;
 
@@ -35,6 +36,7 @@ typedef struct vtObjectSpec {
     unsigned given;                ///< bit set of vtObjectKey
     double values[vt_keyCount][3]; ///< of those given
     char image[1024];              ///< path of a picture, where vt_keyImage is given
+    const vtGlassInfo* kind;       ///< of glass; NULL: none is given
 } vtObjectSpec;
 
 typedef struct vtObjectKeyInfo {

@@ -74,6 +74,20 @@ static const vtSetting table[] = {
      RANGE(1, 4),
      .takesZero = true,
      ABOUT(.zero = "each object's own", .help = "index of refraction of all glass")},
+    {.name = "roughness",
+     FIELD(roughness),
+     .kind = vt_settingNumber,
+     .standard = -1,
+     RANGE(0, 1),
+     .ofObjects = true,
+     ABOUT(.zero = "each object's own", .help = "of all glass; alpha of GGX is its square")},
+    {.name = "dispersion",
+     FIELD(dispersion),
+     .kind = vt_settingNumber,
+     .standard = -1,
+     RANGE(0, 20),
+     .ofObjects = true,
+     ABOUT(.zero = "each object's own", .help = "of all glass: 20 over its Abbe number, or abbe:NUMBER")},
     {.name = "fresnel",
      FIELD(fresnel),
      .kind = vt_settingFlag,
@@ -311,9 +325,13 @@ vtResult vtCheckSettings(const vtFrame* frame, vtError* error)
                                 : setting->most;
         const bool takesZero = setting->takesZero || vtSetting_IsOfPreset(setting);
         // Written so that NaN fails.
-        if (!(value >= least && value <= most) && !(takesZero && value == 0.0)) {
+        if (!(value >= least && value <= most) && !(takesZero && value == 0.0) &&
+            !(setting->ofObjects && value == -1.0)) {
             return vtFail(error, vt_errorArgument, "%s is %g; it must be from %g to %g%s", setting->name,
-                          value, least, most, takesZero && least > 0.0 ? ", or 0" : "");
+                          value, least, most,
+                          setting->ofObjects         ? ", or -1"
+                          : takesZero && least > 0.0 ? ", or 0"
+                                                     : "");
         }
     }
     return vtSucceed(error);

@@ -20,11 +20,12 @@ typedef struct vtSetting {
     uint8_t kind;                    ///< vtSettingKind
     int8_t ofPreset[vt_presetCount]; ///< what 0 stands for; all 0: it is not the preset's
     bool takesZero;                  ///< 0 says something of its own, in or out of the range
+    bool ofObjects;                  ///< -1 leaves it to each object
     bool continues;                  ///< a frame of another value goes on with the samples there are
 #ifdef VT_WITH_ABOUT
     const char* field;        ///< as in vtFrame
     const char* const* words; ///< of an enum or a flag, from 0 on, NULL-terminated; else NULL
-    const char* zero;         ///< what 0 means; NULL: no more than its name says
+    const char* zero;         ///< what 0 means, or -1 of ofObjects; NULL: no more than its name says
     const char* unit;         ///< NULL: none
     const char* help;         ///< what it is, in a line
     unsigned techniques;      ///< bits, by vtTechnique: those it says something to; 0: all

@@ -38,6 +38,7 @@ typedef struct vtTechniqueRow {
     int layers;          ///< layers peeled: 0, a fixed number or VT_LAYERS_OF_FRAME
     vtLayerSpace layerSpace;
     bool traces;                           ///< drawn by the trace pass alone: nothing above, no refract pass
+    bool roughness, dispersion;            ///< of glass: it draws them
     bool heights;                          ///< that meets a relief by its heights
     bool findsOpaque;                      ///< layered: meets what is opaque on its paths
     bool merge;                            ///< layers merged and gathered four to a texel

@@ -17,6 +17,8 @@ const sliders = {
   slab: (value) => value.toFixed(2),
   smooth: (value) => `${value} samples`,
   ior: (value) => value.toFixed(3),
+  roughness: (value) => value.toFixed(2),
+  dispersion: (value) => value.toFixed(2),
   layers: String,
   steps: String,
   events: String,
@@ -68,10 +70,10 @@ export function buildControls(store, page) {
   for (const shape of shapes) addShape(shape, capital(shape), `pictures/${shape}.png`, chooseModel);
   for (const [id, { title, name, picture }] of scenes) addShape(id, name, picture, chooseModel, title);
   for (const [id, { title, picture }] of extraModels) addShape(id, title, picture, chooseModel);
-  for (const { id, name, ior } of glasses) {
+  for (const { id, name, ior, dispersion } of glasses) {
     const button = create('button', { type: 'button', className: 'chip', textContent: name });
     button.dataset.glass = id;
-    button.addEventListener('click', () => store.set({ ior }));
+    button.addEventListener('click', () => store.set({ ior, dispersion }));
     element('glasses').append(button);
   }
   fillTechniques(store, page);
@@ -220,7 +222,7 @@ function show(state, files, chooseModel, store) {
 
   const shown = techniques.filter(({ id }) => id === state.technique || id === state.compare);
   element('summary').textContent = techniques.find(({ id }) => id === state.technique).summary;
-  for (const id of ['ior', 'layers', 'steps', 'events']) {
+  for (const id of ['ior', 'roughness', 'dispersion', 'layers', 'steps', 'events']) {
     const isUsed = shown.some(({ uses }) => uses.includes(id)) || (id === 'layers' && isLayer(state.output));
     element(id).disabled = !isUsed;
     element(id).parentElement.classList.toggle('unused', !isUsed);

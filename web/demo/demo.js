@@ -40,6 +40,8 @@ function attributesOf(state) {
     'environment-image': extraEnvironments.get(state.environment)?.url ?? state.environment,
     'skybox-image': state.backdrop ? '' : null,
     ior: objects === null ? state.ior : null,
+    roughness: state.roughness || null, // 0: as the objects are
+    dispersion: state.dispersion || null,
     preset: state.preset,
     layers: state.layers || null,
     steps: state.steps || null,
@@ -230,8 +232,8 @@ function openFile(file, kind = kindOf(file)) {
 function comparePicture(blob, name) {
   const url = URL.createObjectURL(blob);
   files.set(url, name);
-  const { model, relief, depth, slab, smooth, environment, ior, iors, exposure, orbit, target, fov } = store.state;
-  pictureViews.set(url, { model, relief, depth, slab, smooth, environment, ior, iors, exposure, orbit, target, fov });
+  const { model, relief, depth, slab, smooth, environment, ior, iors, roughness, dispersion, exposure, orbit, target, fov } = store.state;
+  pictureViews.set(url, { model, relief, depth, slab, smooth, environment, ior, iors, roughness, dispersion, exposure, orbit, target, fov });
   store.set({ compare: url });
 }
 

@@ -56,6 +56,8 @@ export const attributes = [
   oneOf('touch-action', ['pan-y', 'pan-x', 'none'], 'What a finger does to the page rather than to the view.'),
   boolean('disable-zoom', 'Wheel, pinch and + − keys do not change the distance.'),
   number('ior', 1, 4, null, 'Index of refraction of all glass.', { defaultText: "each object's own" }),
+  number('roughness', 0, 1, null, 'Of all glass: 0 is clear, 1 frosted.', { defaultText: "each object's own" }),
+  number('dispersion', 0, 20, null, 'Of all glass: 20 over its Abbe number (diamond 0.36, flint 0.55).', { defaultText: "each object's own" }),
   oneOf('fresnel', ['off', 'on'], 'on: glass reflects where it refracts, by Fresnel; off: only where it must.', { default: 'on' }),
   oneOf('technique', techniques, 'How the glass is computed; see `vitrine list`.', { default: null, defaultText: '`exact`; `heightfield` where there is a relief' }),
   oneOf('preset', ['low', 'medium', 'high'], 'What layers, steps and max-events are where they are absent, and how often exact follows what glass reflects: never, once or twice. Less work for weak GPUs, more accuracy for strong ones.', { default: 'medium' }),

@@ -228,9 +228,9 @@ export class VitrineViewer extends HTMLElement {
     const isFirst = this.#values.src === undefined;
     this.#values = values;
     const stage = this.#stage;
-    const { technique, ior, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, samples } = values;
+    const { technique, ior, roughness, dispersion, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, samples } = values;
     stage.cameraIndex = values.cameraIndex;
-    stage.glass = { technique, ior, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'transparent-background': !this.hasAttribute('skybox-image') };
+    stage.glass = { technique, ior, roughness: roughness ?? -1, dispersion: dispersion ?? -1, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'transparent-background': !this.hasAttribute('skybox-image') };
     stage.quality.mode = values.quality;
 
     this.#access.describe(values);
