@@ -1,4 +1,5 @@
-// Kinds of glass by the numbers that makers and laboratories give: the index at 587.6 nm, and the Abbe number.
+// Kinds of glass by the numbers that makers and laboratories give: the index at 587.6 nm, and the Abbe
+// number.
 #include <string.h>
 
 #include "base/about.h"

@@ -16,16 +16,16 @@ void vtDestroyReference(vtReference* reference);
 #define VT_MAX_THREADS 1024
 
 typedef struct vtReferenceDef {
-    const vtFrame* frame; ///< view, ior, maxEvents, exposure, width and height are used
+    const vtFrame* frame; ///< view, ior, roughness, dispersion, maxEvents, exposure, width, height are used
     /// NULL: directions, events, states and reflections only.
     const vtEnvironment* environment;
     /// A pixel for the radiance, 1 to VT_MAX_TRACED_SAMPLES; 0 and 1: one through the pixel's centre, more:
-    /// spread over the pixel as vtFrame.samples are. Each then counts no more than a display can show (1), as
-    /// there; of a sample with Fresnel reflection that is all its light together.
+    /// spread over the pixel as vtFrame.samples are. Each samples rough surfaces anew, and has one wavelength
+    /// where glass disperses (a single one has three paths, at the channels' mean indices).
     int samples;
     /// Unpolarised Fresnel reflection at every event, the first surface's included: both what reflects and
-    /// what refracts is followed, without chance, down to paths of 0.002 of the light. Concerns the radiance
-    /// only.
+    /// what refracts is followed; a path of less than 0.002 of the light by chance, with the light of those
+    /// that are not. Concerns the radiance only.
     bool fresnel;
     /// The radiance only, as fast as it goes: directions, events, states and reflections stay NULL. Needs an
     /// environment.

@@ -46,8 +46,7 @@ vtVec3 vtFacetRay_Normal(const vtFacetRay* ray, float alpha, const float chances
 
 void vtFacetRay_Mirror(vtFacetRay* ray, vtVec3 normal)
 {
-    ray->direction =
-        vtNormalize(vtMulAdd(ray->direction, -2.0f * vtDot(ray->direction, normal), normal));
+    ray->direction = vtNormalize(vtMulAdd(ray->direction, -2.0f * vtDot(ray->direction, normal), normal));
 }
 
 bool vtFacetRay_Refract(vtFacetRay* ray, vtVec3 normal)
@@ -56,8 +55,8 @@ bool vtFacetRay_Refract(vtFacetRay* ray, vtVec3 normal)
     if (k <= 0.0f) {
         return false;
     }
-    const vtVec3 T = vtNormalize(
-        vtMulAdd(vtScale(ray->direction, ray->eta), -(ray->eta * c + sqrtf(k)), normal));
+    const vtVec3 T =
+        vtNormalize(vtMulAdd(vtScale(ray->direction, ray->eta), -(ray->eta * c + sqrtf(k)), normal));
     // As seen from the other side.
     *ray = (vtFacetRay){{T.x, T.y, -T.z}, 1.0f - ray->height, 1.0f / ray->eta, !ray->through};
     return true;

@@ -67,7 +67,11 @@ typedef struct vtReferencePath {
     uint8_t events;
     uint8_t state; ///< VT_PATH_..., once it has ended
     bool ended, reflected;
-    bool nudged; ///< see vtNudge
+    bool nudged;   ///< see vtNudge
+    bool parted;   ///< it has light of one spread only
+    bool mirrored; ///< what the surface ahead mirrors of it has branched off already
+    float spread;  ///< of a wavelength, see reference_spectrum.h
+    uint32_t key;  ///< what it draws its chances by
 } vtReferencePath;
 
 /// Paths from the eye, and those that branch off from them.
@@ -83,6 +87,12 @@ typedef struct vtPathRules {
     bool fresnel;
     const vtIllumination* illumination; ///< NULL: only where paths go is asked for
     float exposure;                     ///< factor
+    float roughness, dispersion;        ///< of all glass; below 0: each object's own
+    /// With all that is decided by chance: roughness, wavelengths, what little light goes on. Else surfaces
+    /// are smooth, glass has one index, and paths of less than 0.002 are left out.
+    bool chance;
+    uint32_t sample;                   ///< its number
+    const struct vtSpectrum* spectrum; ///< NULL: three paths at the channels' means in place of one
 } vtPathRules;
 
 /// Fills an empty Embree scene with a mesh's triangles, and one with a relief without any.

@@ -9,8 +9,11 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "lab/reference/reference.h"
+#include "lab/reference/reference_chance.h"
 #include "lab/reference/reference_scene.h"
+#include "lab/reference/reference_spectrum.h"
 #include "scene/camera.h"
+#include "scene/material.h"
 
 enum { tileSide = 16 };
 
@@ -26,6 +29,8 @@ typedef struct Job {
     vtMedia eyeMedia;    ///< what the eye is within
     vtLighting lighting; ///< of surfaces that are matt or rough
     vtIllumination illumination;
+    vtSpectrum* spectrum; ///< NULL: glass does not disperse, or there is one sample only
+    bool isRough;         ///< something is, or glass disperses
     int tileColumns, tileCount;
     atomic_int nextTile;
     atomic_bool failed; ///< memory is short
@@ -114,19 +119,23 @@ static bool traceCentres(const Job* job, const Tile* tile, vtPathList* list)
 /// Sample number `index` of each pixel, where the renderer has it.
 static bool followSamples(const Job* job, const Tile* tile, int index, vtPathList* list)
 {
+    vtPathRules rules = job->rules;
+    rules.chance = true;
+    rules.sample = (uint32_t)index;
     float x, y;
     vtPixelSample(index, &x, &y);
     vtPathList_Clear(list);
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column) {
-            const vtReferencePath path =
+            vtReferencePath path =
                 makeEyePath(job, (float)column + 0.5f + x, (float)row + 0.5f - y, list->count);
+            path.key = vtMixWords((uint32_t)pixelIndex(job, column, row), 0);
             if (!vtPathList_Add(list, &path)) {
                 return false;
             }
         }
     }
-    return vtFollowPaths(job->reference, &job->rules, list);
+    return vtFollowPaths(job->reference, &rules, list);
 }
 
 /// What a path brings to the eye.
@@ -153,12 +162,12 @@ static void addSamples(const Job* job, const Tile* tile, const vtPathList* list)
     const vtVec3* sum = sums;
     for (int row = tile->firstRow; row < tile->lastRow; ++row) {
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++sum) {
-            // As add_sample.frag does, and for its reason.
-            const float most = job->samples > 1 ? 1.0f : INFINITY;
+            // Only their mean is cut to what a display can show: what is found by chance is seldom, and
+            // bright.
             float* pixel = job->image->radiance + 3 * pixelIndex(job, column, row);
-            pixel[0] += fminf(sum->x, most) * share;
-            pixel[1] += fminf(sum->y, most) * share;
-            pixel[2] += fminf(sum->z, most) * share;
+            pixel[0] += sum->x * share;
+            pixel[1] += sum->y * share;
+            pixel[2] += sum->z * share;
         }
     }
 }
@@ -173,7 +182,7 @@ static bool traceTile(const Job* job, const Tile* tile, vtPathList* list)
         return true;
     }
     // Where one sample is asked for the centres' paths are it, unless there are more than these.
-    const bool again = onlyPicture || job->samples > 1 || job->rules.fresnel;
+    const bool again = onlyPicture || job->samples > 1 || job->rules.fresnel || job->isRough;
     for (int sample = 0; sample < job->samples; ++sample) {
         if (again && !followSamples(job, tile, sample, list)) {
             return false;
@@ -290,6 +299,19 @@ static vtMedia findEyeMedia(const vtReference* reference, vtVec3 eye)
     return media;
 }
 
+/// Does glass disperse? *isRough: does it, or is it rough?
+static bool findGlass(const vtReference* reference, const vtFrame* frame, bool* isRough)
+{
+    bool disperses = false, rough = false;
+    for (uint32_t i = 0; i < reference->glassCount; ++i) {
+        const vtMaterial* material = reference->objects[i].material;
+        disperses |= vtMaterial_Dispersion(material, frame->dispersion) > 0.0f;
+        rough |= vtMaterial_Roughness(material, frame->roughness) > 0.0f;
+    }
+    *isRough = rough || disperses;
+    return disperses;
+}
+
 vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* def, vtReferenceImage* image,
                            vtError* error)
 {
@@ -319,7 +341,12 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
         .camera = vtMakeCamera(frame),
         .samples = def->samples > 1 ? def->samples : 1,
         .exposure = exp2f(frame->exposure),
-        .rules = {frame->ior, vtResolveFrame(frame).maxEvents, def->fresnel, NULL, exp2f(frame->exposure)},
+        .rules = {.ior = frame->ior,
+                  .maxEvents = vtResolveFrame(frame).maxEvents,
+                  .fresnel = def->fresnel,
+                  .exposure = exp2f(frame->exposure),
+                  .roughness = frame->roughness,
+                  .dispersion = frame->dispersion},
         .eyeMedia = frame->orthographicHeight > 0.0f ? (vtMedia){{0}} // its eyes are taken to be in the air
                                                      : findEyeMedia(reference, frame->view.eye),
         .lighting = lighting,
@@ -331,7 +358,15 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     job.rules.illumination = lighting.specular != NULL ? &job.illumination : NULL;
     atomic_init(&job.nextTile, 0);
     atomic_init(&job.failed, false);
+    const bool disperses = findGlass(reference, frame, &job.isRough);
+    job.spectrum = disperses && job.samples > 1 ? malloc(sizeof *job.spectrum) : NULL;
+    atomic_store(&job.failed, disperses && job.samples > 1 && job.spectrum == NULL);
+    if (job.spectrum != NULL) {
+        vtMakeSpectrum(job.spectrum);
+        job.rules.spectrum = job.spectrum;
+    }
     runJob(&job);
+    free(job.spectrum);
     vtDestroyLighting(&lighting);
     if (atomic_load(&job.failed)) {
         vtDestroyReferenceImage(image);
