@@ -13,13 +13,13 @@ uint32_t vtMixWords(uint32_t a, uint32_t b)
     return x ^ x >> 15;
 }
 
-/// Turns each of the upper 24 bits by a hash of those above it.
-static uint32_t scramble(uint32_t x, uint32_t seed)
+/// Turns each of `count` bits, from the highest that counts on, by a hash of those above it.
+static uint32_t scramble(uint32_t x, uint32_t seed, int highest, int count)
 {
     uint32_t turned = x;
-    for (uint32_t bit = 0; bit < 24; ++bit) {
-        const uint32_t above = bit > 0 ? x >> (32 - bit) : 0;
-        turned ^= (vtMixWords(seed, 1u << bit | above) & 1u) << (31 - bit);
+    for (int bit = highest; bit > highest - count; --bit) {
+        const uint32_t above = bit < 31 ? x >> (bit + 1) : 0;
+        turned ^= (vtMixWords(seed, 1u << (31 - bit) | above) & 1u) << bit;
     }
     return turned;
 }
@@ -51,10 +51,9 @@ static float toUnit(uint32_t x)
 void vtChance_Pair(uint32_t key, vtChance purpose, uint32_t sample, float pair[2])
 {
     const uint32_t seed = vtMixWords(key, (uint32_t)purpose);
-    // As its digits are reversed, the first dimension is the place in the order itself.
-    const uint32_t place = scramble(reverse(sample), seed);
-    pair[0] = toUnit(scramble(place, vtMixWords(seed, 1)));
-    pair[1] = toUnit(scramble(secondDimension(reverse(place)), vtMixWords(seed, 2)));
+    const uint32_t index = scramble(sample, seed, 16, 17); // VT_MAX_TRACED_SAMPLES have no more bits
+    pair[0] = toUnit(scramble(reverse(index), vtMixWords(seed, 1), 31, 24));
+    pair[1] = toUnit(scramble(secondDimension(index), vtMixWords(seed, 2), 31, 24));
 }
 
 float vtChance_Next(uint32_t* state)

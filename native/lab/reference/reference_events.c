@@ -261,7 +261,8 @@ typedef struct Crossing {
 /// What is reflected at that cosine; `eta`: index on the ray's side over the one beyond.
 static vtVec3 reflectanceAt(const Crossing* crossing, float cosine, float eta, bool behind)
 {
-    return vtLook_Reflectance(&crossing->seen, cosine, vtFresnel(cosine, eta), fmaxf(eta, 1.0f / eta), behind);
+    return vtLook_Reflectance(&crossing->seen, cosine, vtFresnel(cosine, eta), fmaxf(eta, 1.0f / eta),
+                              behind);
 }
 
 /// The same where the path comes from, of the three channels. Nothing where that is not asked for, all where
@@ -314,11 +315,10 @@ static void leaveFacets(const Crossing* crossing, float alpha, float left, uint3
         const vtVec3 N = vtFacetRay_Normal(ray, alpha, chances);
         vtFacetRay beyond = *ray;
         const bool passes = !crossing->thin && vtFacetRay_Refract(&beyond, N);
-        const vtVec3 F = !passes ? (vtVec3){1.0f, 1.0f, 1.0f}
-                         : crossing->reflects
-                             ? reflectanceAt(crossing, -vtDot(N, ray->direction), ray->eta,
-                                             crossing->behind != ray->through)
-                             : (vtVec3){0.0f, 0.0f, 0.0f};
+        const vtVec3 F = !passes              ? (vtVec3){1.0f, 1.0f, 1.0f}
+                         : crossing->reflects ? reflectanceAt(crossing, -vtDot(N, ray->direction), ray->eta,
+                                                              crossing->behind != ray->through)
+                                              : (vtVec3){0.0f, 0.0f, 0.0f};
         const float share = (F.x + F.y + F.z) / 3.0f;
         if (!passes || vtChance_Next(&row) < share) {
             *weight = multiply(*weight, vtScale(F, 1.0f / share));
@@ -339,8 +339,9 @@ static vtVec3 toWorld(const Crossing* crossing, const vtVec3 axes[2], vtVec3 d, 
     const vtVec3 plane = vtMulAdd(vtScale(axes[0], d.x), d.y, axes[1]);
     const vtVec3 out = vtNormalize(vtMulAdd(plane, side * d.z, crossing->N));
     const float height = side * vtDot(out, crossing->G);
-    return height > 1e-6f ? out
-                          : vtNormalize(vtMulAdd(out, side * (1e-5f - 2.0f * fminf(height, 0.0f)), crossing->G));
+    return height > 1e-6f
+               ? out
+               : vtNormalize(vtMulAdd(out, side * (1e-5f - 2.0f * fminf(height, 0.0f)), crossing->G));
 }
 
 /// Lets a ray leave facets, and says where it goes and with what.
@@ -371,7 +372,8 @@ static void crossRough(const Crossing* crossing, const vtPathRules* rules, uint3
     vtChance_Pair(key, vt_chanceFacet, rules->sample, facet);
     vtChance_Pair(key, vt_chanceWalk, rules->sample, walk);
     const uint32_t row = vtMixWords(vtMixWords(key, vt_chanceMore), rules->sample);
-    vtFacetRay ray = {{vtDot(I, axes[0]), vtDot(I, axes[1]), vtDot(I, N)}, 1.0f, crossing->indices->eta[0], false};
+    vtFacetRay ray = {
+        {vtDot(I, axes[0]), vtDot(I, axes[1]), vtDot(I, N)}, 1.0f, crossing->indices->eta[0], false};
     vtFacetRay_Advance(&ray, alpha, walk[0]);
     const vtVec3 M = vtFacetRay_Normal(&ray, alpha, facet);
     vtFacetRay beyond = ray;
@@ -391,42 +393,52 @@ static void crossRough(const Crossing* crossing, const vtPathRules* rules, uint3
     sendFromFacets(crossing, axes, walk[1], vtMixWords(row, 2), &ray, media, &ways->mirrored);
 }
 
-static bool isRough(const vtPathRules* rules, const vtPlace* place, const Crossing* crossing, bool isInterface)
+static bool isRough(const vtPathRules* rules, const Crossing* crossing)
 {
+    const vtIndices* indices = crossing->indices;
     const float alpha = crossing->seen.roughness * crossing->seen.roughness;
-    const bool bends = crossing->thin ? crossing->seen.ior != 1.0f : crossing->indices->eta[0] != 1.0f;
-    (void)place;
-    return rules->chance && isInterface && bends && alpha >= leastAlpha;
+    const bool bends =
+        crossing->thin ? crossing->seen.ior != 1.0f : indices->eta[0] != 1.0f || crossing->seen.mirror;
+    return rules->chance && indices->isInterface && bends && alpha >= leastAlpha;
+}
+
+/// What the path meets, and how it lies to it.
+static Crossing lookAtGlass(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
+                            const vtSurface* surface, const vtIndices* indices)
+{
+    const float turn = surface->behind ? -1.0f : 1.0f;
+    Crossing crossing = {.I = path->direction,
+                         .G = vtScale(surface->G, turn),
+                         .indices = indices,
+                         .behind = surface->behind,
+                         .thin = surface->object->thin,
+                         .reflects = rules->fresnel && indices->isInterface};
+    look(reference, rules, path, surface->hit, &crossing.seen);
+    crossing.given = vtScale(crossing.seen.N, turn);
+    crossing.N = vtDot(crossing.given, crossing.I) >= 0.0f ? crossing.G : crossing.given;
+    return crossing;
 }
 
 bool vtMeetGlass(const vtReference* reference, const vtPathRules* rules, vtReferencePath* path,
                  const vtPlace* place, const vtIndices* indices, vtBranches* branches)
 {
-    const vtSurface* surface = vtPlace_Surface(place);
-    const bool thin = surface->object->thin, isInterface = indices->isInterface;
-    const bool straight = thin || indices->eta[0] == 1.0f;
-    const float turn = surface->behind ? -1.0f : 1.0f;
-    Crossing crossing;
-    look(reference, rules, path, surface->hit, &crossing.seen);
+    const Crossing crossing = lookAtGlass(reference, rules, path, vtPlace_Surface(place), indices);
     const vtLook* seen = &crossing.seen;
-    crossing.I = path->direction;
-    crossing.G = vtScale(surface->G, turn);
-    crossing.given = vtScale(seen->N, turn);
-    crossing.N = vtDot(crossing.given, crossing.I) >= 0.0f ? crossing.G : crossing.given;
-    crossing.indices = indices;
-    crossing.behind = surface->behind;
-    crossing.thin = thin;
-    crossing.reflects = rules->fresnel && isInterface;
+    const bool straight = crossing.thin || indices->eta[0] == 1.0f;
     const vtVec3 share = vtScale(path->weight, seen->coverage * seen->passes);
     Ways ways;
-    ways.through = (Way){.within = place->after, .part = partThrough, .straight = straight, .counts = !straight, .through = true};
+    ways.through = (Way){.within = place->after,
+                         .part = partThrough,
+                         .straight = straight,
+                         .counts = !straight,
+                         .through = true};
     ways.mirrored = (Way){.within = path->within, .part = partMirrored, .counts = true};
-    if (isRough(rules, place, &crossing, isInterface)) {
+    if (isRough(rules, &crossing)) {
         crossRough(&crossing, rules, path->key, share, &ways);
     } else {
         crossSmooth(&crossing, share, &ways);
         ways.through.weight =
-            isInterface ? multiply(ways.through.weight, seen->base) : ways.through.weight;
+            indices->isInterface ? multiply(ways.through.weight, seen->base) : ways.through.weight;
     }
     Way beside = {.weight = vtScale(path->weight, 1.0f - seen->coverage),
                   .direction = path->direction,
@@ -439,13 +451,13 @@ bool vtMeetGlass(const vtReference* reference, const vtPathRules* rules, vtRefer
         path->mirrored = true;
         return true;
     }
-    if (thin && ways.through.straight) { // the same way
+    const bool together = crossing.thin && ways.through.straight;
+    if (together) { // the same way
         ways.through.weight = vtAdd(ways.through.weight, beside.weight);
         beside.weight = (vtVec3){0.0f, 0.0f, 0.0f};
     }
     path->reflected |= ways.total;
-    const bool passes =
-        seen->passes * seen->coverage + (thin && ways.through.straight ? 1.0f - seen->coverage : 0.0f) > 0.0f;
+    const bool passes = seen->passes * seen->coverage + (together ? 1.0f - seen->coverage : 0.0f) > 0.0f;
     if (!passes && seen->coverage >= 1.0f) {
         return vtEndPath(path, VT_PATH_OPAQUE);
     }

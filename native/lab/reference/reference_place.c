@@ -36,7 +36,7 @@ static bool isStart(const vtReference* reference, const vtReferencePath* path, c
 
 /// The surfaces of glass that the path meets; false where the nearest is the one it starts from.
 bool vtFindSurfaces(const vtReference* reference, const vtReferencePath* path, const vtMeeting* meeting,
-                         vtPlace* place)
+                    vtPlace* place)
 {
     place->count = 0;
     place->opaque = &meeting->opaque;
