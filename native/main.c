@@ -17,8 +17,8 @@ static void printUsage(void)
         "  vitrine compare A B [options]               measure a picture or directions against the truth\n"
         "  vitrine view MODEL [options]                turn the object in a window\n"
         "  vitrine inspect FILE [--json]               what is in a glTF file, and what of it is drawn\n"
-        "  vitrine list                                techniques, shapes, reliefs, kinds of glass, "
-        "environments\n"
+         "  vitrine list                                techniques, shapes, reliefs, kinds of glass, "
+         "environments, tone mappings\n"
         "  vitrine list --settings                     the settings of a frame, as JSON\n"
         "  vitrine list --gltf                         what of glTF is drawn, as a Markdown table\n"
         "  vitrine COMMAND --help                      the options of each\n"
@@ -56,6 +56,10 @@ static void printList(void)
     printf("environments:\n");
     for (int i = 0; vtEnvironmentName(i) != NULL; ++i) {
         printf("  %-14s %s\n", vtEnvironmentName(i), vtEnvironmentSummary(i));
+    }
+    printf("tone mappings:\n");
+    for (int i = 0; vtToneMappingName(i) != NULL; ++i) {
+        printf("  %-14s %s\n", vtToneMappingName(i), vtToneMappingSummary(i));
     }
 }
 

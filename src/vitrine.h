@@ -510,6 +510,32 @@ VT_API vtView vtView_Zoom(vtView view, float factor);
 
 // ------------------------------------------------------------------------------------------- rendering
 
+/// From light, after exposure, to what a display can show. The formulas' sources are in
+/// src/light/tone_mapping.c.
+typedef enum vtToneMapping {
+    vt_toneMappingNone = 0, ///< cut at white
+    vt_toneMappingNeutral,  ///< Khronos PBR Neutral: colours below 0.76 stay, but for 0.04 of reflection
+    vt_toneMappingAces,     ///< a fit of ACES's filmic curve
+    vt_toneMappingAgx,      ///< Sobotka's AgX, its base look: bright colours turn pale
+    vt_toneMappingCount,
+} vtToneMapping;
+VT_API const char* vtToneMappingName(int index);    ///< none neutral aces agx; NULL past the end
+VT_API const char* vtToneMappingSummary(int index); ///< one line
+/// Linear light, Rec. 709 primaries, 0 or more, to linear light from 0 to 1: what the shaders show. sRGB is
+/// the next step. Of another tone mapping it is cut at white.
+VT_API vtVec3 vtToneMap(vtToneMapping toneMapping, vtVec3 light);
+
+/// What is behind the scene where it is seen directly. Glass goes on showing its environment, whatever is
+/// behind it; the edges of what covers a part of a pixel are blended with it.
+typedef enum vtBackground {
+    vt_backgroundEnvironment = VT_BACKGROUND_ENVIRONMENT,
+    vt_backgroundTransparent = VT_BACKGROUND_TRANSPARENT, ///< alpha 0
+    vt_backgroundColor = VT_BACKGROUND_COLOR, ///< vtFrame.backgroundColor, whatever exposure and tone mapping
+    vt_backgroundBlurred = VT_BACKGROUND_BLURRED, ///< the environment, blurred by vtFrame.backgroundBlur
+    vt_backgroundPicture = VT_BACKGROUND_PICTURE, ///< that of vtRenderer_SetBackground, as it is; it fills
+                                                  ///< the frame, and what is too long for it is cut off
+} vtBackground;
+
 /// The ladder, oldest first.
 typedef enum vtTechnique {
     vt_techniqueKayLinear = 0,
@@ -637,7 +663,10 @@ typedef struct vtFrame {
     float wallThickness;    ///< kay-thickness, the model's unit; 0: 6 % of the object's largest extent
     int width, height;      ///< picture, pixels, 1 to 16384
     float exposure; ///< EV, -20 to 20: the picture's linear light is multiplied by 2^exposure; default 0
-    bool transparentBackground; ///< alpha 0 where no glass is seen; glass goes on showing its environment
+    vtToneMapping toneMapping; ///< of the picture, unless it is `linear`; default vt_toneMappingNone
+    vtBackground background;   ///< of the picture; default vt_backgroundEnvironment
+    vtVec3 backgroundColor;    ///< of vt_backgroundColor: red, green, blue as sRGB, 0 to 1; default 0, 0, 0
+    float backgroundBlur;      ///< of vt_backgroundBlurred: standard deviation, degrees, 1 to 90; default 6
     int samples; ///< a pixel, spread over it, 1 to VT_MAX_SAMPLES; their mean is shown. Other outputs than
                  ///< the picture take one. Default 1, the pixel's centre
     int firstSample;      ///< 0 to 1000000: number of the first of them, see vtRenderer_Draw; default 0
@@ -765,6 +794,12 @@ VT_API vtResult vtRenderer_SetMesh(vtRenderer* renderer, const vtMesh* mesh, vtE
 VT_API vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* environment,
                                           vtError* error);
 
+/// The picture that vt_backgroundPicture shows, decoded (`pixels`): RGBA, sRGB, of which alpha is not looked
+/// at. It may go afterwards; NULL: none. Until there is one such a frame cannot be drawn. Fails with
+/// vt_errorArgument where it has no pixels, vt_errorContext where it is larger than the GPU's largest
+/// texture; then the one before stays.
+VT_API vtResult vtRenderer_SetBackground(vtRenderer* renderer, const vtImage* picture, vtError* error);
+
 /// Geometry on the GPU, and an instance of it: in its place, of its material. Zero is none. A handle is good
 /// until what it stands for is removed or a scene is set; then calls that take it fail with vt_errorArgument.
 typedef struct vtGeometryId {
@@ -838,6 +873,11 @@ VT_API vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtEr
 /// bound afterwards. With rgba NULL nothing is read: it returns once the GPU has finished, for timing.
 VT_API vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba,
                                      vtError* error);
+
+/// The same as floats, for files of more than 8 bits: sRGB, 0 to 1, or with frame->linear linear light after
+/// exposure, without tone mapping and not cut at white; straight alpha.
+VT_API vtResult vtRenderer_DrawFloats(vtRenderer* renderer, const vtFrame* frame, float* rgba,
+                                      vtError* error);
 
 /// Exit directions of the last frame's last sample: 3 * width * height floats, top row first. Unit world
 /// directions; (0,0,0) where the eye ray misses the glass, (2,2,2) where the path was lost.

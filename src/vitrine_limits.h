@@ -24,3 +24,10 @@
 #define VT_OUTPUT_ANALYSIS 1
 #define VT_OUTPUT_LAYER_DEPTH 2
 #define VT_OUTPUT_LAYER_NORMAL 3
+
+// What is behind the scene; the values of vtBackground.
+#define VT_BACKGROUND_ENVIRONMENT 0
+#define VT_BACKGROUND_TRANSPARENT 1
+#define VT_BACKGROUND_COLOR 2
+#define VT_BACKGROUND_BLURRED 3
+#define VT_BACKGROUND_PICTURE 4

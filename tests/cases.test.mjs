@@ -423,7 +423,7 @@ describe('in Chromium, as the program draws it', { skip: skipBrowser }, () => {
       const { pathname } = new URL(request.url, 'http://localhost'), made = join(folder, pathname), kept = join(here, 'cases', pathname);
       if (pathname === '/page.html') {
         response.writeHead(200, { 'content-type': 'text/html' }).end('<!doctype html><html lang="en"><title>Cases</title><link rel="icon" href="/black.png"><style>body { margin: 0 }</style>'
-          + '<script type="module" src="/element/vitrine-viewer.js"></script><vitrine-viewer id="a" samples="1" skybox-image style="width: 64px; height: 64px"></vitrine-viewer>');
+          + '<script type="module" src="/element/vitrine-viewer.js"></script><vitrine-viewer id="a" samples="1" tone-mapping="none" skybox-image style="width: 64px; height: 64px"></vitrine-viewer>');
       } else if (existsSync(made)) response.writeHead(200).end(readFileSync(made));
       else if (existsSync(kept)) response.writeHead(200).end(readFileSync(kept));
       else answerWithFile(site, pathname, response);

@@ -100,7 +100,7 @@ describe('words', () => {
     const { attributes } = await import(`data:text/javascript;base64,${source}`);
     const shared = attributes.filter(({ attribute }) => rows.some(({ name }) => name === attribute));
     assert.deepEqual(shared.map(({ attribute }) => attribute),
-      ['exposure', 'ior', 'roughness', 'dispersion', 'fresnel', 'technique', 'preset', 'layers', 'steps', 'max-events', 'output', 'layer', 'samples']);
+      ['exposure', 'tone-mapping', 'ior', 'roughness', 'dispersion', 'fresnel', 'technique', 'preset', 'layers', 'steps', 'max-events', 'output', 'layer', 'samples']);
     for (const row of shared) {
       const { attribute, type, min, max, integer = false, values } = row;
       if (attribute === 'exposure' || attribute === 'technique') continue; // a factor; an id
@@ -108,7 +108,8 @@ describe('words', () => {
       if (type === 'enum') assert.deepEqual(values, setting.words, attribute);
       else assert.deepEqual([min, max, integer], [setting.least, setting.most, setting.kind === 'integer'], attribute);
       const value = type === 'enum' ? values.indexOf(row.default) : row.default ?? (['roughness', 'dispersion'].includes(attribute) ? -1 : 0);
-      if (attribute !== 'samples') assert.equal(value, setting.default, attribute); // the element adds 64, one by one
+      // The element adds 64 samples, one by one, and maps tones as the viewers do that its users know.
+      if (!['samples', 'tone-mapping'].includes(attribute)) assert.equal(value, setting.default, attribute);
     }
     const ids = vitrine(['list']).text.split('shapes:')[0].match(/^  [a-z-]+/gm).map((line) => line.trim());
     const { values } = attributes.find(({ attribute }) => attribute === 'technique');
@@ -170,6 +171,59 @@ describe('output', () => {
     const model = write('ice.glb', glb(gltf(cube())));
     assert.match(vitrine(['render', model, ...small, '-o', 'x.png', '-v']).error, /ior 1\.31/);
     assert.match(vitrine(['render', model, ...small, '-o', 'x.png', '-v', '--ior', '2.4']).error, /ior 2\.4/);
+  });
+
+  test('pictures of more than 8 bits: PNG of 16, OpenEXR and HDR', () => {
+    const draw = (name, ...more) => {
+      const result = vitrine(['render', 'goblet', ...small, '-e', 'sky', '-o', name, ...more]);
+      assert.deepEqual([result.code, result.error], [0, ''], name);
+      return readFileSync(join(folder, name));
+    };
+    const off = (a, b) => Number(vitrine(['compare', a, b]).text.match(/largest difference (\d+)/)[1]);
+    assert.equal(draw('eight.png')[24], 8);
+    assert.equal(draw('sixteen.png', '--bits', '16')[24], 16);
+    const light = draw('light.exr');
+    draw('light.HDR');
+    assert.ok(off('sixteen.png', 'eight.png') <= 1);
+    assert.ok(off('light.exr', 'eight.png') <= 1);
+    assert.ok(off('light.HDR', 'eight.png') <= 1);
+    // Light is as it is, whatever is made of it for a display, and brighter than white where it is.
+    assert.deepEqual(draw('mapped.exr', '--tone-mapping', 'agx'), light);
+    draw('dark.png', '--exposure', '-5');
+    draw('dark.exr', '--exposure', '-5');
+    assert.ok(off('dark.exr', 'dark.png') <= 1);
+    assert.ok(off('mapped.exr', 'dark.png') > 200);
+    // Several samples: light is not cut before its mean is taken, so a lamp's edge is brighter.
+    draw('samples.exr', '--samples', '4');
+    draw('samples.png', '--samples', '4', '--bits', '16');
+    assert.ok(Number(vitrine(['compare', 'samples.exr', 'samples.png', '--json']).text.match(/"psnr":\s*([\d.]+)/)[1]) > 30);
+    // Alpha is in an OpenEXR file only where something is transparent.
+    const names = (file) => file.subarray(0, 400).toString('latin1').match(/[ABGR]\0\x02\0\0\0/g).map((name) => name[0]).join('');
+    assert.equal(names(light), 'BGR');
+    assert.equal(names(draw('clear.exr', '--background', 'transparent')), 'ABGR');
+    const traced = draw('traced.exr', '-t', 'reference');
+    if (traced.length > 0) assert.ok(off('traced.exr', 'eight.png') > 0);
+  });
+
+  test('tone mapping, of the reference, too; what is behind the scene', () => {
+    const draw = (name, ...more) => {
+      const result = vitrine(['render', 'sphere', ...small, '-e', 'checker', '--exposure', '1', '--no-fresnel', '-o', name, ...more]);
+      assert.deepEqual([result.code, result.error], [0, ''], more.join(' '));
+      return name;
+    };
+    const psnr = (a, b) => JSON.parse(vitrine(['compare', a, b, '--json']).text).psnr ?? Infinity;
+    for (const mapping of ['none', 'neutral', 'aces', 'agx']) {
+      draw('mapped.png', '--tone-mapping', mapping);
+      assert.ok(psnr(draw('traced.png', '--tone-mapping', mapping, '-t', 'reference'), 'mapped.png') > 45, mapping);
+      assert.ok(psnr(draw('traced.png', '--tone-mapping', mapping, '-t', 'reference', '--bits', '16'), 'mapped.png') > 45, mapping);
+      if (mapping !== 'none') assert.ok(psnr('mapped.png', 'plain.png') < 35, mapping);
+      else assert.equal(psnr(draw('plain.png'), 'mapped.png'), Infinity);
+    }
+    assert.equal(psnr(draw('same.png', '--background', 'environment'), 'plain.png'), Infinity);
+    for (const background of ['transparent', '#1e90ff', '#fff', 'blurred', 'blurred:30', './mapped.png']) {
+      draw('behind.png', '--background', background);
+      assert.ok(psnr('behind.png', 'plain.png') < 40, background);
+    }
   });
 
   test('a model from standard input, a .gltf with its buffer beside it', () => {
@@ -244,6 +298,20 @@ describe('bad input', () => {
     refuses(render('sphere', '--shiny'), ['--shiny', 'vitrine render --help']);
     refuses(render('sphere', 'torus'), ["'torus'", 'one model']);
     refuses(render(), ['no model given']);
+    refuses(render('sphere', '--bits', '12'), ['--bits is 12', '8 or 16']);
+    refuses(render('sphere', '--tone-mapping', 'film'), ["--tone-mapping is 'film'", 'none, neutral, aces or agx']);
+    refuses(render('sphere', '--background', 'blured'), ["'blured'", 'environment, transparent, blurred', "picture's file"]);
+    refuses(render('sphere', '--background', 'blurred:100'), ["'blurred:100'", 'from 1 to 90']);
+    refuses(render('sphere', '--background', '#12345'), ["'#12345'", 'hexadecimal']);
+    refuses(render('sphere', '--background', 'nowhere.png'), ["'nowhere.png'", 'No such file']);
+    refuses(render('sphere', '--background', write('text.png', 'once upon a time')), ["'text.png'", 'PNG, JPEG nor WebP']);
+    refuses(render('sphere', '-t', 'reference', '--background', '#fff'), ["'reference'", 'leave --background out']);
+    for (const [more, part] of [[['--bits', '16'], 'leave it out'], [['--analysis'], 'must be a PNG']]) {
+      const result = vitrine([...render('sphere', ...more), '-o', 'x.exr']);
+      assert.equal(result.code, 1);
+      assert.match(result.error, /^vitrine: [^\n]+\n$/);
+      assert.ok(result.error.includes(part), result.error);
+    }
     const none = vitrine(['render', 'sphere']);
     assert.equal(none.code, 1);
     assert.match(none.error, /no output given; add -o/);

@@ -159,6 +159,8 @@ describe('the demo page', { skip }, () => {
     assert.equal(await page.getByRole('button', { name: 'Goblet' }).getAttribute('aria-pressed'), 'true');
     await page.locator('#environment input[value=checker]').check();
     await changes('environment', 3);
+    await page.locator('#tone input[value=agx]').check();
+    await changes('tone', 3);
     await page.locator('#backdrop').uncheck();
     await changes('backdrop', 3);
     await page.selectOption('#technique', 'single');
@@ -170,7 +172,7 @@ describe('the demo page', { skip }, () => {
     await changes('theme', 10);
     assert.deepEqual(await query(page), {
       model: 'goblet', environment: 'checker', backdrop: '0', technique: 'single', ior: '1.2', layers: '4', steps: '3', events: '2',
-      quality: 'low', exposure: '1', fov: '30', theme: 'light',
+      quality: 'low', exposure: '1', tone: 'agx', fov: '30', theme: 'light',
     });
 
     for (const [name, ior] of [['Water', '1.333'], ['Crown glass', '1.517'], ['Flint', '1.62'], ['Sapphire', '1.768'], ['Diamond', '2.417']]) {

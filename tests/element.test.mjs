@@ -287,7 +287,7 @@ describe('the element', { skip }, () => {
   }
 
   function nativePicture(...args) {
-    const result = spawnSync(binary, ['render', ...args, '-o', 'native.png', '--resolution', `${side},${side}`],
+    const result = spawnSync(binary, ['render', '--tone-mapping', 'neutral', ...args, '-o', 'native.png', '--resolution', `${side},${side}`],
       { cwd: folder, env: { ...process.env, ASAN_OPTIONS: 'detect_leaks=0' } });
     assert.equal(result.status, 0, result.stderr.toString());
     return PNG.sync.read(readFileSync(join(folder, 'native.png')));
@@ -452,6 +452,40 @@ describe('the element', { skip }, () => {
     const full = await shot(page);
     assert.notDeepEqual(pixel(full, 2, 2), [20, 90, 40]);
     assert.ok(difference(clear, full) > 30);
+  });
+
+  test('maps tones, and puts a background behind the scene', async (t) => {
+    const page = await open(t, `<vitrine-viewer id="a" src="sphere" samples="4" background="environment"></vitrine-viewer>${ofSide}`, { allowed: /404/ });
+    const native = (...args) => nativePicture('sphere', '--samples', '4', ...args);
+    const problem = async () => {
+      await quiet(page);
+      return message(page);
+    };
+    writeFileSync(join(folder, 'panorama.png'), PNG.sync.write(panorama()));
+    for (const toneMapping of ['aces', 'agx', 'none', 'neutral']) {
+      const seen = await shown(page, { toneMapping });
+      const differing = difference(seen, native('--tone-mapping', toneMapping));
+      assert.ok(differing < 0.5, `${toneMapping}: ${differing} % differ`);
+      assert.ok(toneMapping === 'neutral' || difference(seen, native()) > 5, toneMapping);
+    }
+    for (const background of ['#f0e8d8', 'blurred', 'blurred:20', '/panorama.png', 'transparent']) {
+      const seen = await shown(page, { background });
+      const differing = difference(seen, native('--background', background.replace('/', './')));
+      t.diagnostic(`${background}: ${differing.toFixed(4)} % differ`);
+      assert.ok(differing < 0.5, `${background}: ${differing} % differ`);
+    }
+    await page.locator('#a').screenshot({ path: join(screenshots, 'element-background.png') });
+    // What cannot stand is said; the picture is as without it, or as before.
+    await page.evaluate(() => (a.background = 'blured'));
+    assert.match(await problem(), /^background is 'blured'; it must be environment, .* or a URL$/);
+    await page.evaluate(() => (a.background = 'blurred:0'));
+    assert.match(await problem(), /^background is 'blurred:0'; its degrees must be from 1 to 90$/);
+    await shown(page, { background: '/panorama.png' });
+    await page.evaluate(() => (a.background = '/nowhere.png'));
+    assert.match(await problem(), /nowhere\.png: the server answered 404/);
+    assert.ok(difference(await picture(page), native('--background', './panorama.png')) < 0.5, 'the one before stays');
+    await page.evaluate(() => (a.background = '/good.glb'));
+    assert.match(await problem(), /'good\.glb' is no picture that this browser can decode/);
   });
 
   test('adding, removing and moving leaks nothing', async (t) => {

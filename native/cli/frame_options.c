@@ -9,6 +9,7 @@
 #include "cli/load.h"
 #include "cli/relief_input.h"
 #include "cli/trace.h"
+#include "technique/background.h"
 
 /// The camera of that number or name, or NULL.
 static const vtSceneCamera* findCamera(const vtScene* scene, const char* text)
@@ -80,6 +81,13 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     }
     frame->output = options->analysis ? vt_outputAnalysis : vt_outputPicture;
     frame->fresnel = options->fresnel;
+    if (options->background != NULL && vtFrame_SetBackground(frame, options->background, error) != vt_ok) {
+        return vt_errorArgument;
+    }
+    if (isReference && frame->background != vt_backgroundEnvironment) {
+        return vtFail(error, vt_errorArgument,
+                      "technique 'reference' has the environment behind the scene; leave --background out");
+    }
     frame->samples = isReference ? 1 : options->samples; // the reference takes more
     const float aspect = (float)frame->width / (float)frame->height;
     vtResult result = chooseView(options, &input->scene, aspect, frame, error);

@@ -18,6 +18,7 @@
 #include "scene/material.h"
 #include "scene/objects.h"
 #include "shapes/shapes.h"
+#include "technique/background.h"
 #include "technique/technique.h"
 
 static bool isShape(const char* name)
@@ -363,6 +364,24 @@ static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError*
     return vtPrepareScene(scene, technique, NULL, error);
 }
 
+/// The picture that a background names, if it does.
+static vtResult loadBackground(const char* text, vtImage* picture, vtError* error)
+{
+    vtFrame frame = vtDefaultFrame();
+    uint8_t* bytes;
+    size_t size;
+    vtResult result = vtFrame_SetBackground(&frame, text, error);
+    if (result != vt_ok || frame.background != vt_backgroundPicture) {
+        return result;
+    }
+    result = vtReadFile(text, &bytes, &size, error);
+    if (result == vt_ok) {
+        result = vtDecodeImage(bytes, size, text, picture, error);
+        vtFree(bytes);
+    }
+    return result;
+}
+
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
 {
     *input = (vtInput){.ior = options->frame.ior};
@@ -372,6 +391,9 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
     }
     if (result == vt_ok) {
         result = loadEnvironment(options->environment, &input->environment, error);
+    }
+    if (result == vt_ok && options->background != NULL) {
+        result = loadBackground(options->background, &input->background, error);
     }
     if (result == vt_ok) {
         result = prepareMeshes(options, &input->scene, error);
@@ -387,6 +409,7 @@ void vtDestroyInput(vtInput* input)
 {
     vtDestroyScene(&input->scene);
     vtDestroyEnvironment(&input->environment);
+    vtFree(input->background.pixels);
     *input = (vtInput){0};
 }
 

@@ -6,7 +6,8 @@
 typedef struct vtInput {
     vtScene scene;
     vtEnvironment environment;
-    float ior; ///< of the command line; 0: each object's own
+    vtImage background; ///< its pixels NULL: no picture
+    float ior;          ///< of the command line; 0: each object's own
 } vtInput;
 
 /// Loads models and environment, prints notes (computed normals) and warnings (an open mesh) to stderr.

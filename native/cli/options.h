@@ -19,6 +19,7 @@ typedef struct vtOptions {
     const char* model;
     const char* output;
     const char* environment;
+    const char* background; ///< NULL: the environment
     const char* technique;
     const char* root; ///< a folder around the models'
     const char *walls, *variant;
@@ -40,6 +41,7 @@ typedef struct vtOptions {
     int reliefSize;             ///< samples along a side of a built-in relief
     int triangles;              ///< of the knot or the torus; 0: as built in
     int rounds, threads;
+    int bits;   ///< of a PNG; 0: not given
     int frames; ///< view: close after so many, 0: never
     bool json;
     bool analysis, verbose, help;

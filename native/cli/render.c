@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/files.h"
+#include "cli/picture_output.h"
 #include "cli/session.h"
 #include "cli/trace.h"
 #include "image/image.h"
@@ -24,8 +25,9 @@ typedef struct Output {
 
 enum { outputPicture, outputDirections, outputSheet, outputEvents, outputCount };
 
-static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, uint8_t* pixels, Output* output,
-                            vtError* error)
+/// `floats`: where they go, of a format that takes them.
+static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, vtPictureFormat format, float* floats,
+                            uint8_t* pixels, Output* output, vtError* error)
 {
     const bool showsProgress = frame->samples > 1 && isatty(STDERR_FILENO);
     const double start = vtNow();
@@ -35,14 +37,34 @@ static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, uint8_t*
     part.samples = 1;
     for (; part.firstSample < frame->samples && result == vt_ok; ++part.firstSample) {
         bool last = part.firstSample == frame->samples - 1;
-        result = vtRenderer_DrawImage(renderer, &part, last ? pixels : NULL, error);
+        result = floats != NULL ? vtRenderer_DrawFloats(renderer, &part, last ? floats : NULL, error)
+                                : vtRenderer_DrawImage(renderer, &part, last ? pixels : NULL, error);
         if (showsProgress) {
             vtShowProgress("drawing", (float)(part.firstSample + 1) / (float)frame->samples, start);
         }
     }
     if (result == vt_ok) {
-        result = vtEncodePng(pixels, 4, frame->width, frame->height, &output->bytes, &output->size, error);
+        result =
+            floats != NULL
+                ? vtEncodePicture(floats, format, frame, pixels, &output->bytes, &output->size, error)
+                : vtEncodePng(pixels, 4, frame->width, frame->height, &output->bytes, &output->size, error);
     }
+    return result;
+}
+
+static vtResult drawInFormat(vtRenderer* renderer, const vtFrame* frame, vtPictureFormat format,
+                             uint8_t* pixels, Output* output, vtError* error)
+{
+    float* floats = NULL;
+    if (format != vt_formatPng) {
+        floats = malloc(4 * sizeof *floats * (size_t)frame->width * (size_t)frame->height);
+        if (floats == NULL) {
+            return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", frame->width,
+                          frame->height);
+        }
+    }
+    const vtResult result = drawPicture(renderer, frame, format, floats, pixels, output, error);
+    free(floats);
     return result;
 }
 
@@ -122,11 +144,12 @@ static void sayLayers(const vtFrame* frame, const vtRendererInfo* info)
     }
 }
 
-/// `ior`: of all glass, 0: there are several.
-static vtResult drawAll(const vtOptions* options, const vtFrame* frame, float ior, vtRenderer* renderer,
-                        uint8_t* pixels, Output* outputs, vtError* error)
+static vtResult drawAll(const vtOptions* options, const vtFrame* frame, vtPictureFormat format,
+                        const vtSession* session, uint8_t* pixels, Output* outputs, vtError* error)
 {
-    vtResult result = drawPicture(renderer, frame, pixels, &outputs[outputPicture], error);
+    vtRenderer* renderer = session->renderer;
+    const float ior = vtCommonIor(&session->input); // 0: there are several
+    vtResult result = drawInFormat(renderer, frame, format, pixels, &outputs[outputPicture], error);
     if (result == vt_ok && options->verbose) {
         vtRendererInfo info = vtRenderer_Info(renderer);
         fprintf(stderr, "vitrine: %s, %s\n", info.device, info.version);
@@ -154,18 +177,38 @@ static vtResult rasterise(const vtOptions* options, vtFrame* frame, uint8_t** pi
                       "--events comes from the reference; add --technique reference");
     }
     vtSession session;
-    vtResult result = vtOpenSession(options, &session, error);
+    vtPictureFormat format;
+    vtResult result = vtChoosePictureFormat(options, &format, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    result = vtOpenSession(options, &session, error);
     if (result == vt_ok) {
         result = vtMakeFrame(options, &session.input, frame, error);
+        frame->linear = vtPictureFormat_IsLinear(format);
     }
     if (result == vt_ok) {
         *pixels = malloc(4 * (size_t)frame->width * (size_t)frame->height);
-        result = *pixels != NULL ? drawAll(options, frame, vtCommonIor(&session.input), session.renderer,
-                                           *pixels, outputs, error)
+        result = *pixels != NULL ? drawAll(options, frame, format, &session, *pixels, outputs, error)
                                  : vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d",
                                           frame->width, frame->height);
     }
     vtCloseSession(&session);
+    return result;
+}
+
+static vtResult encodeTraced(const vtReferenceImage* image, const vtFrame* frame, vtPictureFormat format,
+                             uint8_t* pixels, Output* output, vtError* error)
+{
+    float* floats;
+    if (format == vt_formatPng) {
+        return vtEncodePng(pixels, 4, frame->width, frame->height, &output->bytes, &output->size, error);
+    }
+    vtResult result = vtTraceFloats(image, frame, &floats, error);
+    if (result == vt_ok) {
+        result = vtEncodePicture(floats, format, frame, pixels, &output->bytes, &output->size, error);
+        free(floats);
+    }
     return result;
 }
 
@@ -181,7 +224,12 @@ static vtResult trace(const vtOptions* options, vtFrame* frame, uint8_t** pixels
         return result;
     }
     vtReferenceImage image = {0};
-    result = vtMakeFrame(options, &input, frame, error);
+    vtPictureFormat format;
+    result = vtChoosePictureFormat(options, &format, error);
+    if (result == vt_ok) {
+        result = vtMakeFrame(options, &input, frame, error);
+        frame->linear = vtPictureFormat_IsLinear(format);
+    }
     if (result == vt_ok) {
         result = vtTrace(options, &input, frame, &image, error);
     }
@@ -189,8 +237,7 @@ static vtResult trace(const vtOptions* options, vtFrame* frame, uint8_t** pixels
         result = vtTracePixels(&image, frame, pixels, error);
     }
     if (result == vt_ok) {
-        result = vtEncodePng(*pixels, 4, frame->width, frame->height, &outputs[outputPicture].bytes,
-                             &outputs[outputPicture].size, error);
+        result = encodeTraced(&image, frame, format, *pixels, &outputs[outputPicture], error);
     }
     if (result == vt_ok && options->directions != NULL) {
         result = vtEncodePfm(image.directions, frame->width, frame->height, &outputs[outputDirections].bytes,

@@ -26,6 +26,9 @@ static vtResult setScene(vtSession* session, vtError* error)
     if (result == vt_ok) {
         result = vtRenderer_SetEnvironment(session->renderer, &session->input.environment, error);
     }
+    if (result == vt_ok && session->input.background.pixels != NULL) {
+        result = vtRenderer_SetBackground(session->renderer, &session->input.background, error);
+    }
     return result;
 }
 

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/math.h"
+#include "image/image.h"
 #include "lab/metrics/timing.h"
 
 bool vtIsReference(const vtOptions* options)
@@ -65,8 +67,38 @@ vtResult vtTracePixels(const vtReferenceImage* image, const vtFrame* frame, uint
                       image->height);
     }
     vtReference_ToSrgb(image, *pixels);
+    for (size_t i = 0; i < count && frame->toneMapping != vt_toneMappingNone; ++i) {
+        const vtVec3 light = vtToneMap(frame->toneMapping, vtMakeVec3(image->radiance + 3 * i));
+        const float shown[3] = {light.x, light.y, light.z};
+        for (size_t k = 0; k < 3; ++k) {
+            (*pixels)[4 * i + k] = (uint8_t)(255.0f * vtLinearToSrgb(shown[k]) + 0.5f);
+        }
+    }
     for (size_t i = 0; i < count && frame->output == vt_outputAnalysis; ++i) {
         analysisColor(image, i, *pixels + 4 * i);
+    }
+    return vtSucceed(error);
+}
+
+vtResult vtTraceFloats(const vtReferenceImage* image, const vtFrame* frame, float** rgba, vtError* error)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    *rgba = malloc(4 * count * sizeof **rgba);
+    if (*rgba == NULL) {
+        return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", image->width,
+                      image->height);
+    }
+    for (size_t i = 0; i < count; ++i) {
+        vtVec3 shown = vtMakeVec3(image->radiance + 3 * i);
+        uint8_t color[3];
+        if (frame->output == vt_outputAnalysis) {
+            analysisColor(image, i, color);
+            shown = (vtVec3){(float)color[0] / 255.0f, (float)color[1] / 255.0f, (float)color[2] / 255.0f};
+        } else if (!frame->linear) {
+            shown = vtToneMap(frame->toneMapping, shown);
+            shown = (vtVec3){vtLinearToSrgb(shown.x), vtLinearToSrgb(shown.y), vtLinearToSrgb(shown.z)};
+        }
+        memcpy(*rgba + 4 * i, &(const float[4]){shown.x, shown.y, shown.z, 1.0f}, 4 * sizeof(float));
     }
     return vtSucceed(error);
 }

@@ -13,3 +13,7 @@ vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* 
 
 /// The frame's output (picture or analysis) of a traced image: RGBA, allocated by malloc.
 vtResult vtTracePixels(const vtReferenceImage* image, const vtFrame* frame, uint8_t** pixels, vtError* error);
+
+/// The same as floats, as vtRenderer_DrawFloats has them: linear light, or sRGB after tone mapping, by
+/// frame->linear.
+vtResult vtTraceFloats(const vtReferenceImage* image, const vtFrame* frame, float** rgba, vtError* error);

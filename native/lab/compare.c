@@ -37,8 +37,9 @@ static void printHelp(void)
     printf(
         "vitrine compare A B [options]; A is the result, B the truth it is held against\n"
         "\n"
-        "Pictures (.png, .jpg, .hdr or .pfm, compared as 8-bit sRGB): PSNR, SSIM, mean FLIP at 67 pixels\n"
-        "a degree, pixels over a threshold. Direction images (.pfm of 'vitrine render --directions'):\n"
+        "Pictures (.png, .jpg, .exr, .hdr or .pfm, compared as 8-bit sRGB): PSNR, SSIM, mean FLIP at 67\n"
+        "pixels a degree, pixels over a threshold. Direction images (.pfm of 'vitrine render "
+        "--directions'):\n"
         "shares within 0.1, 1 and 5 degrees, median, lost. - is standard input.\n"
         "\n"
         "      --json                           one JSON object instead of text; psnr is null where equal\n"

@@ -57,6 +57,9 @@ vtResult vtRunView(const vtOptions* options, vtError* error)
     if (result == vt_ok) {
         result = vtRenderer_SetEnvironment(renderer, &input.environment, error);
     }
+    if (result == vt_ok && input.background.pixels != NULL) {
+        result = vtRenderer_SetBackground(renderer, &input.background, error);
+    }
     if (result == vt_ok) {
         result = runLoop(window, renderer, frame, options->frames, error);
     }

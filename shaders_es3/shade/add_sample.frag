@@ -1,7 +1,8 @@
 // Adds a sample to the sum of those before: red, green and blue where it covers the pixel, and that it does.
 // Every sample is cut to what the display can show before it is added. The mean over all light would be
 // right for a film, but a lamp ten times as bright as white would then fill each pixel of which it covers a tenth:
-// edges against lamps would stay stairs. Where linear light is wanted (u_host.z) it is not cut.
+// edges against lamps would stay stairs. Where linear light is wanted, or tone mapping
+// makes room for what is brighter than white (u_host.z), it is not cut.
 uniform usampler2D u_radiance;
 uniform usampler2D u_sum; // bits of floats
 

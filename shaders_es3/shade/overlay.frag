@@ -31,6 +31,13 @@ void main()
     if (light.a <= 0.0 || depth >= NOTHING_BEHIND || depth > 1.0001 * hostDepth(ivec2(gl_FragCoord.xy))) {
         discard;
     }
-    o_color = vec4((u_host.z != 0 ? light.rgb / light.a : linearToSrgb(light.rgb / light.a)) * light.a, light.a);
+    vec3 shown = light.rgb / light.a;
+    if ((u_host.z & 1) == 0) {
+#ifdef WITH_TONE
+        shown = toneMap(shown);
+#endif
+        shown = linearToSrgb(shown);
+    }
+    o_color = vec4(shown * light.a, light.a);
     gl_FragDepth = windowDepth(depth);
 }

@@ -4,8 +4,6 @@ uniform usampler2D u_radiance;
 uniform usampler2DArray u_layerDepths;
 uniform usampler2DArray u_layerNormals;
 
-layout(location = 0) out vec4 o_color;
-
 vec3 analysisColor(uvec4 path)
 {
     int state = int(path.w);
@@ -40,12 +38,12 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy) - u_host.xy;
     vec4 light = uintBitsToFloat(readTexel(u_radiance, pixel, u_size.xy));
     if (u_output.x == VT_OUTPUT_PICTURE) {
-        o_color = u_host.z != 0 ? light : vec4(linearToSrgb(min(light.rgb, 1.0)), light.a);
+        o_color = SHOWN(displayed(light.rgb / (light.a > 0.0 ? light.a : 1.0), light.a));
     } else if (u_output.x == VT_OUTPUT_ANALYSIS) {
         uvec4 path = texelFetch(u_paths, pixel, 0);
-        bool isClear = u_output.w != 0 && int(path.w) == VT_PATH_BACKGROUND;
-        o_color = isClear ? vec4(0.0) : vec4(analysisColor(path), 1.0);
+        bool isClear = u_output.w == VT_BACKGROUND_TRANSPARENT && int(path.w) == VT_PATH_BACKGROUND;
+        o_color = SHOWN(isClear ? vec4(0.0) : vec4(analysisColor(path), 1.0));
     } else {
-        o_color = vec4(layerColor(), 1.0);
+        o_color = SHOWN(vec4(layerColor(), 1.0));
     }
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "gl/lighting_texture.h"
+#include "light/blur.h"
 #include "light/environment_levels.h"
 
 void vtEnvironmentBuffer_Create(vtEnvironmentBuffer* buffer, const vtGL* gl)
@@ -125,15 +126,38 @@ vtResult vtEnvironmentBuffer_Light(vtEnvironmentBuffer* buffer, const vtGL* gl, 
     return result;
 }
 
+vtResult vtEnvironmentBuffer_Blur(vtEnvironmentBuffer* buffer, const vtGL* gl, float degrees, vtError* error)
+{
+    if (buffer->blurred.name != 0 && buffer->blurredBy == degrees) {
+        return vtSucceed(error);
+    }
+    vtEnvironment blurred;
+    vtResult result = vtBlurEnvironment(&buffer->light, degrees, &blurred, error);
+    if (result == vt_ok) {
+        vtTexture_Destroy(&buffer->blurred, gl);
+        vtTexture_Resize(&buffer->blurred, gl, GL_RGB16F, blurred.width, blurred.height, 0);
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, blurred.width, blurred.height, GL_RGB, GL_FLOAT,
+                          blurred.pixels);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        gl->TexParameteri(buffer->blurred.target, GL_TEXTURE_WRAP_S, GL_REPEAT);
+        buffer->blurredBy = degrees;
+        vtDestroyEnvironment(&blurred);
+    }
+    return result;
+}
+
 void vtEnvironmentBuffer_Destroy(vtEnvironmentBuffer* buffer, const vtGL* gl)
 {
     vtTexture_Destroy(&buffer->picture, gl);
     vtTexture_Destroy(&buffer->lighting, gl);
+    vtTexture_Destroy(&buffer->blurred, gl);
     vtDestroyEnvironment(&buffer->light);
     *buffer = (vtEnvironmentBuffer){0};
 }
 
 size_t vtEnvironmentBuffer_Bytes(const vtEnvironmentBuffer* buffer)
 {
-    return vtTexture_Bytes(&buffer->picture) + vtTexture_Bytes(&buffer->lighting);
+    return vtTexture_Bytes(&buffer->picture) + vtTexture_Bytes(&buffer->lighting) +
+           vtTexture_Bytes(&buffer->blurred);
 }

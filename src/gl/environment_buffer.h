@@ -8,6 +8,8 @@ typedef struct vtEnvironmentBuffer {
     vtTexture picture;   ///< RGB16F equirectangular, linear; one texel where the environment is built in
     vtTexture lighting;  ///< RGBA16F, gl/lighting_texture.h; made when first used
     vtEnvironment light; ///< what that is made of: a small copy
+    vtTexture blurred;   ///< RGB16F equirectangular, linear: for backgrounds; made when first used
+    float blurredBy;     ///< degrees
 } vtEnvironmentBuffer;
 
 /// One texel, for programs that read a picture which no pixel asks for.
@@ -17,5 +19,7 @@ vtResult vtEnvironmentBuffer_Set(vtEnvironmentBuffer* buffer, const vtGL* gl,
                                  const vtEnvironment* environment, vtError* error);
 /// Makes buffer->lighting, for scenes with something opaque. Does nothing where it is there.
 vtResult vtEnvironmentBuffer_Light(vtEnvironmentBuffer* buffer, const vtGL* gl, vtError* error);
+/// Makes buffer->blurred, by so many degrees. Does nothing where it is there.
+vtResult vtEnvironmentBuffer_Blur(vtEnvironmentBuffer* buffer, const vtGL* gl, float degrees, vtError* error);
 void vtEnvironmentBuffer_Destroy(vtEnvironmentBuffer* buffer, const vtGL* gl);
 size_t vtEnvironmentBuffer_Bytes(const vtEnvironmentBuffer* buffer);

@@ -45,6 +45,7 @@ static const char* const samplerNames[vt_samplerCount] = {
     [vt_samplerDepths] = "u_depths",
     [vt_samplerHostColor] = "u_hostColor",
     [vt_samplerHostDepth] = "u_hostDepth",
+    [vt_samplerBackground] = "u_background",
 };
 
 void vtProgramDef_SetFragment(vtProgramDef* def, const vtChunk* const* chunks, size_t count)

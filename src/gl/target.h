@@ -53,6 +53,7 @@ typedef enum vtSampler {
     vt_samplerDepths,
     vt_samplerHostColor,
     vt_samplerHostDepth,
+    vt_samplerBackground,
     vt_samplerCount,
 } vtSampler;
 

@@ -83,7 +83,8 @@ static const vtGltfFeature features[] = {
     EXTENSION("KHR_materials_transmission", vt_gltfDrawn,
               "a thin wall without KHR_materials_volume, but solid where a file is nothing but closed glass "
               "(--walls says otherwise); where no material of a file has it, all are made clear glass"),
-    EXTENSION("KHR_materials_unlit", vt_gltfDrawn, "its base colour as it is, whatever the exposure"),
+    EXTENSION("KHR_materials_unlit", vt_gltfDrawn,
+              "its base colour as it is, whatever the exposure; tones are mapped as of the rest"),
     EXTENSION("KHR_materials_variants", vt_gltfDrawn,
               "by --variant; else the materials that primitives name"),
     EXTENSION("KHR_materials_volume", vt_gltfDrawn,

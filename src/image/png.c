@@ -185,7 +185,7 @@ static void flushBytes(png_structp png)
     (void)png;
 }
 
-static bool writePng(Writer* writer, const uint8_t* pixels, int channels, int width, int height)
+static bool writePng(Writer* writer, const void* pixels, int channels, int bits, int width, int height)
 {
     if (setjmp(writer->outcome.escape) != 0) {
         return false;
@@ -195,18 +195,23 @@ static bool writePng(Writer* writer, const uint8_t* pixels, int channels, int wi
                                      : PNG_COLOR_TYPE_RGBA;
     png_structp png = writer->png;
     png_set_write_fn(png, writer, writeBytes, flushBytes);
-    png_set_IHDR(png, writer->info, (png_uint_32)width, (png_uint_32)height, 8, type, PNG_INTERLACE_NONE,
+    png_set_IHDR(png, writer->info, (png_uint_32)width, (png_uint_32)height, bits, type, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, writer->info);
+    const uint16_t one = 1;
+    if (bits == 16 && *(const uint8_t*)&one == 1) {
+        png_set_swap(png); // the file begins with the upper byte
+    }
+    const size_t stride = (size_t)width * (size_t)channels * (size_t)(bits / 8);
     for (int row = 0; row < height; ++row) {
-        png_write_row(png, pixels + (size_t)row * (size_t)width * (size_t)channels);
+        png_write_row(png, (png_const_bytep)pixels + (size_t)row * stride);
     }
     png_write_end(png, NULL);
     return true;
 }
 
-vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
-                     size_t* size, vtError* error)
+static vtResult encode(const void* pixels, int channels, int bits, int width, int height, uint8_t** bytes,
+                       size_t* size, vtError* error)
 {
     *bytes = NULL;
     *size = 0;
@@ -217,7 +222,7 @@ vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height,
     writer.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &writer.outcome, leave, pass,
                                            &writer.outcome, allocate, release);
     writer.info = writer.png != NULL ? png_create_info_struct(writer.png) : NULL;
-    const bool written = writer.info != NULL && writePng(&writer, pixels, channels, width, height);
+    const bool written = writer.info != NULL && writePng(&writer, pixels, channels, bits, width, height);
     png_destroy_write_struct(&writer.png, &writer.info);
     if (!written) { // nothing else can fail
         vtFree(writer.bytes);
@@ -226,4 +231,16 @@ vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height,
     *bytes = writer.bytes;
     *size = writer.size;
     return vtSucceed(error);
+}
+
+vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
+                     size_t* size, vtError* error)
+{
+    return encode(pixels, channels, 8, width, height, bytes, size, error);
+}
+
+vtResult vtEncodePng16(const uint16_t* pixels, int channels, int width, int height, uint8_t** bytes,
+                       size_t* size, vtError* error)
+{
+    return encode(pixels, channels, 16, width, height, bytes, size, error);
 }

@@ -9,16 +9,12 @@ static const vtProgramDef addDef = {
     .fragment = {&vtChunk_add_sample_frag},
 };
 
-static const vtProgramDef showDef = {
-    .name = "show samples",
-    .vertex = {&vtChunk_screen_vert},
-    .fragment = {&vtChunk_srgb, &vtChunk_show_samples_frag},
-};
-
-void vtAccumulatePass_Start(vtAccumulatePass* pass, const vtGL* gl, vtProgramList* programs)
+void vtAccumulatePass_Start(vtAccumulatePass* pass, const vtGL* gl, vtDisplay display,
+                            vtProgramList* programs)
 {
     vtProgramList_Start(programs, &pass->addProgram, gl, &addDef);
-    vtProgramList_Start(programs, &pass->showProgram, gl, &showDef);
+    vtDisplay_Start(display, "show samples", &vtChunk_show_samples_frag, &pass->showProgram, &pass->display,
+                    gl, programs);
 }
 
 vtResult vtAccumulatePass_Resize(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
@@ -52,13 +48,15 @@ void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTextur
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, GLuint framebuffer, int x, int y)
+void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, const vtBehind* behind,
+                           GLuint framebuffer, int x, int y)
 {
     const vtTexture* sum = &pass->sums[pass->latest];
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl->Viewport(x, y, sum->width, sum->height);
     gl->UseProgram(pass->showProgram.name);
     vtTexture_Bind(sum, gl, vt_samplerSum);
+    vtDisplay_Bind(pass->display, &pass->showProgram, behind, gl);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -4,18 +4,20 @@
 
 #if VT_WITH_HOST
 
-static const vtProgramDef programDefs[2] = {
-    {.name = "overlay",
-     .vertex = {&vtChunk_screen_vert},
-     .fragment = {&vtChunk_srgb, &vtChunk_host_depth, &vtChunk_overlay_frag}},
-    {.name = "overlay of a surface",
-     .vertex = {&vtChunk_screen_vert},
-     .fragment = {&vtChunk_with_surface, &vtChunk_srgb, &vtChunk_host_depth, &vtChunk_overlay_frag}},
-};
-
-void vtOverlayPass_Start(vtOverlayPass* pass, const vtGL* gl, bool surface, vtProgramList* programs)
+void vtOverlayPass_Start(vtOverlayPass* pass, const vtGL* gl, bool surface, vtToneMapping toneMapping,
+                         vtProgramList* programs)
 {
-    vtProgramList_Start(programs, &pass->programs[surface], gl, &programDefs[surface]);
+    vtProgramDef def = {.name = surface ? "overlay of a surface" : "overlay",
+                        .vertex = {&vtChunk_screen_vert}};
+    const vtChunk* const chunks[] = {surface ? &vtChunk_with_surface : NULL, &vtChunk_srgb,
+                                     vtDisplay_ToneChunk(toneMapping), &vtChunk_host_depth,
+                                     &vtChunk_overlay_frag};
+    vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
+    if (pass->toneMappings[surface] != toneMapping) {
+        vtProgram_Destroy(&pass->programs[surface], gl);
+    }
+    pass->toneMappings[surface] = toneMapping;
+    vtProgramList_Start(programs, &pass->programs[surface], gl, &def);
 }
 
 void vtOverlayPass_Draw(const vtOverlayPass* pass, const vtGL* gl, const vtOverlayInputs* inputs,

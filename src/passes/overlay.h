@@ -1,13 +1,13 @@
 #pragma once
 
 #include "gl/host_picture.h"
-#include "gl/program.h"
-#include "gl/target.h"
+#include "passes/display.h"
 
 /// The last pass in place of present or accumulate's showing where a frame is drawn over the host's picture:
 /// blended, with its depth, hidden by what the host has before it.
 typedef struct vtOverlayPass {
-    vtProgram programs[2]; ///< by whether depths are those of the surface pass
+    vtProgram programs[2];         ///< by whether depths are those of the surface pass
+    vtToneMapping toneMappings[2]; ///< of each
 } vtOverlayPass;
 
 typedef struct vtOverlayInputs {
@@ -18,15 +18,16 @@ typedef struct vtOverlayInputs {
 } vtOverlayInputs;
 
 #if VT_WITH_HOST
-void vtOverlayPass_Start(vtOverlayPass* pass, const vtGL* gl, bool surface, vtProgramList* programs);
+void vtOverlayPass_Start(vtOverlayPass* pass, const vtGL* gl, bool surface, vtToneMapping toneMapping,
+                         vtProgramList* programs);
 void vtOverlayPass_Draw(const vtOverlayPass* pass, const vtGL* gl, const vtOverlayInputs* inputs,
                         GLuint framebuffer, int x, int y);
 void vtOverlayPass_Destroy(vtOverlayPass* pass, const vtGL* gl);
 #else
 static inline void vtOverlayPass_Start(vtOverlayPass* pass, const vtGL* gl, bool surface,
-                                       vtProgramList* programs)
+                                       vtToneMapping toneMapping, vtProgramList* programs)
 {
-    (void)pass, (void)gl, (void)surface, (void)programs;
+    (void)pass, (void)gl, (void)surface, (void)toneMapping, (void)programs;
 }
 static inline void vtOverlayPass_Draw(const vtOverlayPass* pass, const vtGL* gl,
                                       const vtOverlayInputs* inputs, GLuint framebuffer, int x, int y)

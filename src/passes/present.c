@@ -2,15 +2,9 @@
 
 #include "shaders.h"
 
-static const vtProgramDef programDef = {
-    .name = "present",
-    .vertex = {&vtChunk_screen_vert},
-    .fragment = {&vtChunk_octahedral, &vtChunk_srgb, &vtChunk_present_frag},
-};
-
-void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtProgramList* programs)
+void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtDisplay display, vtProgramList* programs)
 {
-    vtProgramList_Start(programs, &pass->program, gl, &programDef);
+    vtDisplay_Start(display, "present", &vtChunk_present_frag, &pass->program, &pass->display, gl, programs);
 }
 
 void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPresentInputs* inputs,
@@ -24,6 +18,7 @@ void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPrese
                                   {vt_samplerLayerDepths, inputs->layerDepths},
                                   {vt_samplerLayerNormals, inputs->layerNormals}};
     vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
+    vtDisplay_Bind(pass->display, &pass->program, &inputs->behind, gl);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -6,6 +6,7 @@
 #include "base/about.h"
 #include "base/error.h"
 #include "gl/image_array.h"
+#include "gl/picture_texture.h"
 #include "gl/state.h"
 #include "render/renderer.h"
 #include "technique/technique.h"
@@ -415,6 +416,20 @@ vtResult vtRenderer_SetImages(vtRenderer* renderer, const vtImage* images, uint3
     if (result == vt_ok) {
         renderer->scene.isStale = true; // its table of materials names layers
         tellOfImages(renderer, images, count);
+    }
+    return endChange(renderer, result, error);
+}
+
+vtResult vtRenderer_SetBackground(vtRenderer* renderer, const vtImage* picture, vtError* error)
+{
+    vtResult result = beginChange(renderer, renderer, VT_ABOUT("the renderer"), error);
+    if (result != vt_ok) {
+        return result;
+    }
+    if (picture == NULL) {
+        vtTexture_Destroy(&renderer->background, &renderer->gl);
+    } else {
+        result = vtUploadPicture(&renderer->background, &renderer->gl, picture, "background", error);
     }
     return endChange(renderer, result, error);
 }

@@ -1,6 +1,7 @@
 // From a scene to paths and their light: the passes of a frame, in order, but the last. Techniques that
 // search layers, or blend: surface, peel, merge, refract, shade; those that need no image of the scene:
 // trace. Each pass reads the targets of those before it and writes its own.
+#include "image/image.h"
 #include "render/renderer.h"
 #include "technique/technique.h"
 
@@ -23,6 +24,24 @@ void vtEndStage(const vtFrame* frame, const char* stage)
 static bool hasOpaque(const vtRenderer* renderer)
 {
     return renderer->scene.objectCount > renderer->scene.glassCount;
+}
+
+/// What the last pass makes of the light; views for analysis show no light.
+static vtDisplay displayOf(const vtRenderer* renderer, const vtFrame* frame)
+{
+    const bool isPicture = frame->output == vt_outputPicture;
+    return (vtDisplay){.toneMapping = isPicture && !frame->linear ? frame->toneMapping : vt_toneMappingNone,
+                       .hasBackground = isPicture && frame->background >= vt_backgroundColor,
+                       .toFloats = renderer->drawsFloats};
+}
+
+vtBehind vtRenderer_Behind(const vtRenderer* renderer, const vtFrame* frame)
+{
+    const vtVec3 color = frame->backgroundColor;
+    return (vtBehind){.texture = frame->background == vt_backgroundPicture   ? &renderer->background
+                                 : frame->background == vt_backgroundBlurred ? &renderer->environment.blurred
+                                                                             : NULL,
+                      .color = {vtSrgbToLinear(color.x), vtSrgbToLinear(color.y), vtSrgbToLinear(color.z)}};
 }
 
 void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs)
@@ -48,12 +67,12 @@ void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProg
         vtMergePass_Start(&renderer->merge, gl, programs);
     }
     if (vtFrame_AddsSamples(frame)) {
-        vtAccumulatePass_Start(&renderer->accumulate, gl, programs);
+        vtAccumulatePass_Start(&renderer->accumulate, gl, displayOf(renderer, frame), programs);
     } else if (!vtFrame_IsOverlay(frame)) {
-        vtPresentPass_Start(&renderer->present, gl, programs);
+        vtPresentPass_Start(&renderer->present, gl, displayOf(renderer, frame), programs);
     }
     if (vtFrame_IsOverlay(frame)) {
-        vtOverlayPass_Start(&renderer->overlay, gl, row->surface, programs);
+        vtOverlayPass_Start(&renderer->overlay, gl, row->surface, frame->toneMapping, programs);
     }
     renderer->lacksShaders = programs->lacksShaders;
 }
@@ -100,6 +119,9 @@ vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, in
             : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
     if (result == vt_ok && hasOpaque(renderer)) {
         result = vtEnvironmentBuffer_Light(&renderer->environment, gl, error);
+    }
+    if (result == vt_ok && frame->background == vt_backgroundBlurred) {
+        result = vtEnvironmentBuffer_Blur(&renderer->environment, gl, frame->backgroundBlur, error);
     }
     if (result == vt_ok && vtFrame_AddsSamples(frame)) {
         result = vtAccumulatePass_Resize(&renderer->accumulate, gl, frame->width, frame->height, error);

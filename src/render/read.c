@@ -22,27 +22,25 @@ static void flipRows(uint8_t* rows, size_t rowBytes, int height)
     }
 }
 
-vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error)
+/// Draws one frame into a texture of that format and reads it back.
+static vtResult drawOffscreen(vtRenderer* renderer, const vtFrame* frame, GLenum format, GLenum layout,
+                              GLenum type, void* rgba, vtError* error)
 {
-    vtResult result = vtCheckGiven(renderer, frame, VT_ABOUT("the frame"), error);
-    result = result == vt_ok ? vtValidateFrame(frame, error) : result;
-    if (result != vt_ok) {
-        return result;
-    }
     const vtGL* gl = &renderer->gl;
     vtTakeState(gl);
-    if (vtTexture_Resize(&renderer->image, gl, GL_RGBA8, frame->width, frame->height, 0)) {
+    if (vtTexture_Resize(&renderer->image, gl, format, frame->width, frame->height, 0)) {
         vtAttachment color = {&renderer->image, 0};
-        result = vtMakeFramebuffer(gl, "image", &color, 1, NULL, &renderer->imageFramebuffer, error);
-        if (result != vt_ok) {
-            return result;
+        const vtResult made =
+            vtMakeFramebuffer(gl, "image", &color, 1, NULL, &renderer->imageFramebuffer, error);
+        if (made != vt_ok) {
+            return made;
         }
     }
     vtFrame offscreen = *frame;
     offscreen.framebuffer = renderer->imageFramebuffer;
     offscreen.x = offscreen.y = 0;
-    offscreen.linear = offscreen.overlay = false;
-    result = vtRenderer_Draw(renderer, &offscreen, error);
+    offscreen.overlay = false;
+    const vtResult result = vtRenderer_Draw(renderer, &offscreen, error);
     if (result != vt_ok) {
         return result;
     }
@@ -52,10 +50,38 @@ vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_
         gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
         return vtSucceed(error);
     }
-    gl->ReadPixels(0, 0, frame->width, frame->height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    gl->ReadPixels(0, 0, frame->width, frame->height, layout, type, rgba);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
-    flipRows(rgba, 4 * (size_t)frame->width, frame->height);
+    flipRows(rgba, (type == GL_UNSIGNED_BYTE ? 4 : 16) * (size_t)frame->width, frame->height);
     return vtCheckGL(gl, "reading the picture back", error);
+}
+
+static vtResult checkFrame(const vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    const vtResult result = vtCheckGiven(renderer, frame, VT_ABOUT("the frame"), error);
+    return result == vt_ok ? vtValidateFrame(frame, error) : result;
+}
+
+vtResult vtRenderer_DrawImage(vtRenderer* renderer, const vtFrame* frame, uint8_t* rgba, vtError* error)
+{
+    const vtResult result = checkFrame(renderer, frame, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    vtFrame encoded = *frame;
+    encoded.linear = false;
+    return drawOffscreen(renderer, &encoded, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, rgba, error);
+}
+
+vtResult vtRenderer_DrawFloats(vtRenderer* renderer, const vtFrame* frame, float* rgba, vtError* error)
+{
+    vtResult result = checkFrame(renderer, frame, error);
+    if (result == vt_ok) {
+        renderer->drawsFloats = true; // ES 3.0 draws to no floats, but to their bits
+        result = drawOffscreen(renderer, frame, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rgba, error);
+        renderer->drawsFloats = false;
+    }
+    return result;
 }
 
 /// The paths' target: four words a pixel, top row first, from vtAllocate; *count pixels.

@@ -74,6 +74,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtEnvironmentBuffer_Destroy(&renderer->environment, gl);
     vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
     vtTexture_Destroy(&renderer->image, gl);
+    vtTexture_Destroy(&renderer->background, gl);
     gl->DeleteBuffers(1, &renderer->uniformBuffer);
     gl->DeleteVertexArrays(1, &renderer->emptyVertexArray);
     vtFree(renderer);
@@ -102,7 +103,8 @@ static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
                            &(vtPresentInputs){.paths = vtRenderer_Paths(renderer),
                                               .radiance = vtRenderer_Light(renderer),
                                               .layerDepths = &renderer->peel.depths,
-                                              .layerNormals = &renderer->peel.normals},
+                                              .layerNormals = &renderer->peel.normals,
+                                              .behind = vtRenderer_Behind(renderer, frame)},
                            frame->framebuffer, frame->x, frame->y, frame->width, frame->height);
     }
     vtEndStage(frame, "present");
@@ -186,7 +188,8 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
                         vtTexture_Bytes(&renderer->shade.radiance) + vtTracePass_Bytes(&renderer->trace) +
                         vtSceneBuffer_TextureBytes(&renderer->scene) +
                         vtEnvironmentBuffer_Bytes(&renderer->environment) +
-                        vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image),
+                        vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image) +
+                        vtTexture_Bytes(&renderer->background),
         .meshBytes = vtGeometryStore_MeshBytes(&renderer->scene.geometry),
         .heightBytes = vtGeometryStore_HeightBytes(&renderer->scene.geometry),
         .layerWidth = renderer->peel.depths.width,

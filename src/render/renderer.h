@@ -32,19 +32,21 @@ struct vtRenderer {
     vtAccumulatePass accumulate;
     vtOverlayPass overlay;
     vtHostPicture host; // of the frame
+    bool drawsFloats;   // vtRenderer_DrawFloats is at work
     bool nearIsGreater; // in its depth buffer
     bool lacksShaders;  // the last frame asked for does, see vtRenderer_SetLaterShaders
     // What there is to draw, and the handles of its geometry and instances.
     vtSceneBuffer scene;
     vtSlots geometrySlots, instanceSlots;
     vtEnvironmentBuffer environment;
+    vtTexture background; // the picture; not there: none
     // What the next frame has to agree with to go on with the samples.
     vtFrame frame;            // the last, as it was drawn
     vtFrameUniforms uniforms; // its own, of the pixel's centre
     int sampleEnd;            // the first sample not drawn yet; 0: nothing to go on with
     // vtRenderer_DrawImage draws into this.
     GLuint imageFramebuffer;
-    vtTexture image;
+    vtTexture image; // RGBA8, or RGBA32UI where floats are drawn
 };
 
 /// Fails with vt_errorArgument where there is no renderer or no other thing that the call needs.
@@ -88,6 +90,9 @@ bool vtRenderer_KeepFrame(vtRenderer* renderer, const vtFrame* frame, const vtFr
 
 /// The last pass of a frame that is drawn over the host's picture.
 void vtRenderer_DrawOverlay(const vtRenderer* renderer, const vtFrame* frame, const vtTexture* light);
+
+/// What lies behind the scene, in front of a frame's transparent pixels.
+vtBehind vtRenderer_Behind(const vtRenderer* renderer, const vtFrame* frame);
 
 /// Draws the samples that are asked for and not there yet, and shows the mean of all. `sampleEnd`: of the
 /// frame before, if this one goes on with it, else 0.

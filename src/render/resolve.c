@@ -80,7 +80,7 @@ vtResult vtRenderer_ResolveFrame(vtRenderer* renderer, const vtFrame* asked, vtF
         return result;
     }
     *frame = vtResolveFrame(asked);
-    frame->transparentBackground = frame->transparentBackground || frame->overlay;
+    frame->background = frame->overlay ? vt_backgroundTransparent : frame->background;
     frame->view.eye = vtSub(frame->view.eye, renderer->scene.origin);
     frame->view.target = vtSub(frame->view.target, renderer->scene.origin);
     *camera = vtMakeCamera(frame);
@@ -88,6 +88,10 @@ vtResult vtRenderer_ResolveFrame(vtRenderer* renderer, const vtFrame* asked, vtF
         camera->eye = vtSub(camera->eye, renderer->scene.origin);
     }
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    if (frame->background == vt_backgroundPicture && renderer->background.name == 0) {
+        return vtFail(error, vt_errorArgument,
+                      "there is no picture for the background; call vtRenderer_SetBackground first");
+    }
     result = checkHost(frame, camera, row, error);
     return result == vt_ok ? checkMeshes(&renderer->scene, row, error) : result;
 }

@@ -57,7 +57,8 @@ void vtRenderer_DrawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
     if (vtFrame_IsOverlay(frame)) {
         vtRenderer_DrawOverlay(renderer, frame, &accumulate->sums[accumulate->latest]);
     } else {
-        vtAccumulatePass_Show(accumulate, gl, frame->framebuffer, frame->x, frame->y);
+        const vtBehind behind = vtRenderer_Behind(renderer, frame);
+        vtAccumulatePass_Show(accumulate, gl, &behind, frame->framebuffer, frame->x, frame->y);
     }
     renderer->sampleEnd = sampleEnd;
 }

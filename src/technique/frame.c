@@ -66,6 +66,15 @@ vtResult vtValidateFrame(const vtFrame* frame, vtError* error)
         return vtFail(error, vt_errorArgument, "layer is %d; with %d layers it must be from 0 to %d",
                       frame->layer, layers, layers - 1);
     }
+    const vtVec3 behind = frame->backgroundColor;
+    // Written so that NaN fails.
+    if (!(fminf(behind.x, fminf(behind.y, behind.z)) >= 0.0f &&
+          fmaxf(behind.x, fmaxf(behind.y, behind.z)) <= 1.0f) ||
+        !isFinite(behind)) {
+        return vtFail(error, vt_errorArgument,
+                      "background-color is (%g, %g, %g); its numbers must be from 0 to 1", (double)behind.x,
+                      (double)behind.y, (double)behind.z);
+    }
     if (vtCheckMatrices(frame, error) != vt_ok) {
         return vt_errorArgument;
     }

@@ -9,7 +9,8 @@
 static_assert(sizeof(vtFrame) <= UINT8_MAX, "the table has offsets of a byte");
 static_assert(sizeof(vtTechnique) == sizeof(int) && sizeof(vtOutput) == sizeof(int) &&
                   sizeof(vtPreset) == sizeof(int) && sizeof(vtMulti) == sizeof(int) &&
-                  sizeof(vtSearch) == sizeof(int) && sizeof(vtBackSurface) == sizeof(int),
+                  sizeof(vtSearch) == sizeof(int) && sizeof(vtBackSurface) == sizeof(int) &&
+                  sizeof(vtToneMapping) == sizeof(int) && sizeof(vtBackground) == sizeof(int),
               "the table takes enums for integers");
 
 #ifdef VT_WITH_ABOUT
@@ -30,7 +31,9 @@ static_assert(sizeof presetWords / sizeof presetWords[0] == vt_presetCount + 1, 
 static const char
     *const outputWords[] = {"picture", "analysis", "layer-depth", "layer-normal", NULL},
            *const flagWords[] = {"off", "on", NULL}, *const multiWords[] = {"any", "ordered", NULL},
-           *const searchWords[] = {"steps", "cells", NULL}, *const backWords[] = {"second", "farthest", NULL};
+           *const searchWords[] = {"steps", "cells", NULL}, *const backWords[] = {"second", "farthest", NULL},
+           *const toneWords[] = {"none", "neutral", "aces", "agx", NULL},
+           *const backgroundWords[] = {"environment", "transparent", "color", "blurred", "picture", NULL};
 #endif
 
 // In vtFrame's order; those of no kind are integers.
@@ -189,10 +192,24 @@ static const vtSetting table[] = {
      .kind = vt_settingNumber,
      RANGE(-20, 20),
      ABOUT(.unit = "EV", .help = "brightens by a factor of 2 each")},
-    {.name = "transparent-background",
-     FIELD(transparentBackground),
-     .kind = vt_settingFlag,
-     ABOUT(.words = flagWords, .help = "alpha 0 where no glass is seen")},
+    {.name = "tone-mapping",
+     FIELD(toneMapping),
+     RANGE(0, vt_toneMappingCount - 1),
+     ABOUT(.words = toneWords, .help = "from light to what a display shows")},
+    {.name = "background-kind",
+     FIELD(background),
+     RANGE(0, VT_BACKGROUND_PICTURE),
+     ABOUT(.words = backgroundWords, .help = "what is behind the scene")},
+    {.name = "background-color",
+     FIELD(backgroundColor),
+     .kind = vt_settingVector,
+     ABOUT(.help = "sRGB, 0 to 1")},
+    {.name = "background-blur",
+     FIELD(backgroundBlur),
+     .kind = vt_settingNumber,
+     .standard = 6,
+     RANGE(1, 90),
+     ABOUT(.unit = "degrees", .help = "standard deviation of the blurred environment")},
     {.name = "samples",
      FIELD(samples),
      .standard = 1,

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "render/renderer.h"
+#include "technique/background.h"
 #include "technique/settings.h"
 #include "technique/technique.h"
 
@@ -86,6 +87,41 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenPicture(vtViewer* viewer, uint8_t*
     vtResult result = vtCreateImageEnvironment(pixels, width, height, name, &environment, &viewer->error);
     free(pixels);
     return sentence(viewer, result == vt_ok ? showEnvironment(viewer, &environment) : result);
+}
+
+/// A picture for the background that the browser has decoded, RGBA, top row first.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_BackgroundPicture(vtViewer* viewer, uint8_t* pixels, int width,
+                                                            int height, const char* name)
+{
+    (void)name;
+    const vtImage picture = {.pixels = pixels, .width = width, .height = height};
+    const vtResult result = vtRenderer_SetBackground(viewer->renderer, &picture, &viewer->error);
+    free(pixels);
+    viewer->changed |= result == vt_ok;
+    return sentence(viewer, result);
+}
+
+/// One that the browser has not.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_BackgroundOpen(vtViewer* viewer, uint8_t* bytes, size_t size,
+                                                         const char* name)
+{
+    (void)size;
+    free(bytes);
+    vtFail(&viewer->error, vt_errorFormat,
+           "background '%.300s' is no picture that this browser can decode; save it as PNG, JPEG or WebP",
+           name);
+    return viewer->error.message;
+}
+
+/// What is behind the scene, as vtFrame_SetBackground has it, for vtViewer_SetGlass; until its picture has
+/// come, the page.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetBackground(vtViewer* viewer, const char* text)
+{
+    const vtResult result = vtFrame_SetBackground(&viewer->wanted, text, &viewer->error);
+    if (viewer->wanted.background == vt_backgroundPicture && viewer->renderer->background.name == 0) {
+        viewer->wanted.background = vt_backgroundTransparent;
+    }
+    return sentence(viewer, result);
 }
 
 /// Takes a frame over if it is valid and its technique has what it needs.

@@ -1,9 +1,10 @@
 // The panel and the gallery: everything a visitor can set, in step with the store.
-import { environments, extraEnvironments, extraModels, glassOf, glasses, outputs, patterns, peels, presets, qualities, reliefState, scenes, shapes, techniqueFor, techniques } from './state.js';
+import { environments, extraEnvironments, extraModels, glassOf, glasses, outputs, patterns, peels, presets, qualities, reliefState, scenes, shapes, techniqueFor, techniques, tones } from './state.js';
 
 const element = (id) => document.getElementById(id);
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 const outputNames = { picture: 'Picture', analysis: 'Paths', 'layer-depth': 'Depth', 'layer-normal': 'Normals' };
+const toneNames = { none: 'None', neutral: 'Neutral', aces: 'ACES', agx: 'AgX' };
 const themeNames = { auto: 'System', dark: 'Dark', light: 'Light' };
 
 /** Colours of present.frag, in words. */
@@ -85,6 +86,7 @@ export function buildControls(store, page) {
     const input = addSegment('output', value, outputNames[value], (output) => showOutput(output, store, page));
     input.disabled = value !== 'picture' && !page.canShow.output;
   }
+  for (const value of tones) addSegment('tone', value, toneNames[value], (tone) => store.set({ tone }));
   for (const [value, name] of Object.entries(themeNames)) addSegment('theme', value, name, (theme) => store.set({ theme }));
 
   for (const id of Object.keys(sliders)) {
@@ -215,7 +217,7 @@ function show(state, files, chooseModel, store) {
   showGlass(state, store);
   showRelief(state, files);
   for (const id of checks) element(id).checked = state[id];
-  for (const id of ['relief', 'quality', 'environment', 'output', 'theme']) choose(id, state[id]);
+  for (const id of ['relief', 'quality', 'environment', 'tone', 'output', 'theme']) choose(id, state[id]);
   choose('preset', state.layers || state.steps || state.events ? '' : state.preset); // none: the visitor's own numbers
   element('technique').value = state.technique;
   element('compare').value = state.compare;

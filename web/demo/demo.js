@@ -47,6 +47,7 @@ function attributesOf(state) {
     steps: state.steps || null,
     'max-events': state.events || null,
     exposure: Number((2 ** state.exposure).toPrecision(6)),
+    'tone-mapping': state.tone,
     output: state.output,
     layer: state.layer,
     quality: state.quality,
@@ -232,8 +233,8 @@ function openFile(file, kind = kindOf(file)) {
 function comparePicture(blob, name) {
   const url = URL.createObjectURL(blob);
   files.set(url, name);
-  const { model, relief, depth, slab, smooth, environment, ior, iors, roughness, dispersion, exposure, orbit, target, fov } = store.state;
-  pictureViews.set(url, { model, relief, depth, slab, smooth, environment, ior, iors, roughness, dispersion, exposure, orbit, target, fov });
+  const { model, relief, depth, slab, smooth, environment, ior, iors, roughness, dispersion, exposure, tone, orbit, target, fov } = store.state;
+  pictureViews.set(url, { model, relief, depth, slab, smooth, environment, ior, iors, roughness, dispersion, exposure, tone, orbit, target, fov });
   store.set({ compare: url });
 }
 

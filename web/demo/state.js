@@ -73,6 +73,7 @@ export function objectsOf(state) {
 export const environments = ['studio', 'sky', 'checker'];
 export const qualities = ['auto', 'high', 'medium', 'low'];
 export const outputs = ['picture', 'analysis', 'layer-depth', 'layer-normal'];
+export const tones = ['none', 'neutral', 'aces', 'agx'];
 export const presets = ['low', 'medium', 'high'];
 /** Some of those that `vitrine list` has; dispersion is 20 over the Abbe number. */
 export const glasses = [
@@ -86,14 +87,14 @@ export const glasses = [
 /** The stored picture, and the scene it was traced from (pictures/make.sh). */
 export const reference = {
   url: 'pictures/reference.png',
-  scene: { model: 'knot', environment: 'sky', backdrop: true, ior: 1.5, iors: '', roughness: 0, dispersion: 0, exposure: 0, fov: 45, orbit: '30deg 72deg 3.4m', target: '0m 0m 0m', rotate: false, output: 'picture' },
+  scene: { model: 'knot', environment: 'sky', backdrop: true, ior: 1.5, iors: '', roughness: 0, dispersion: 0, exposure: 0, tone: 'none', fov: 45, orbit: '30deg 72deg 3.4m', target: '0m 0m 0m', rotate: false, output: 'picture' },
 };
 
 export const defaults = {
   model: 'knot', relief: 'ripples', depth: 0.05, slab: 0.1, smooth: 2, environment: 'sky', backdrop: true,
   technique: 'exact', compare: 'none', wipe: 50,
   ior: 1.5, iors: '', roughness: 0, dispersion: 0, preset: 'medium', layers: 0, steps: 0, events: 0, quality: 'auto', // 0: as the preset says
-  output: 'picture', layer: 0, exposure: 0, fov: 45, rotate: false,
+  output: 'picture', layer: 0, exposure: 0, tone: 'neutral', fov: 45, rotate: false,
   orbit: 'auto auto auto', target: 'auto auto auto', theme: 'auto',
 };
 
@@ -121,7 +122,7 @@ const readers = {
   relief: oneOf(patterns.map(({ id }) => id)), depth: number(0, 10), slab: number(0.001, 10), smooth: number(0, 64),
   technique: oneOf(ids), compare: oneOf(['none', 'reference', ...ids]), wipe: number(0, 100),
   ior: number(1, 4), iors: numbers(1, 4), roughness: number(0, 1), dispersion: number(0, 20), preset: oneOf(presets), layers: number(0, 16, true), steps: number(0, 1000, true), events: number(0, 64, true), quality: oneOf(qualities),
-  output: oneOf(outputs), layer: number(0, 15, true), exposure: number(-10, 10), fov: number(1, 170), rotate: flag,
+  output: oneOf(outputs), layer: number(0, 15, true), exposure: number(-10, 10), tone: oneOf(tones), fov: number(1, 170), rotate: flag,
   orbit: words('deg|rad|m|cm|mm|%'), target: words('m|cm|mm'), theme: oneOf(['auto', 'dark', 'light']),
 };
 

@@ -145,15 +145,15 @@ export class Viewer {
   }
 
   /**
-   * Settings by their names in the core's table (src/technique/settings.c), a word by its attribute's list; null: as the preset or each object says; technique null: as the scene has it.
+   * Settings by their names in the core's table (src/technique/settings.c), a word by its attribute's list; null: as the preset or each object says; technique null: as the scene has it; background as the attribute has it.
    * @returns {string} a sentence, or ''
    */
-  setGlass({ technique, lessened, ...settings }) {
+  setGlass({ technique, lessened, background, ...settings }) {
     for (const [name, value] of Object.entries(settings)) {
       const words = attributes.find(({ attribute }) => attribute === name)?.values;
       this.call('Set', name, words ? words.indexOf(value) : Number(value));
     }
-    return this.attempt('SetGlass', technique ?? '', Number(lessened));
+    return this.attempt('SetBackground', background) || this.attempt('SetGlass', technique ?? '', Number(lessened));
   }
 
   /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */

@@ -27,8 +27,8 @@ export class Loader {
 
   /**
    * Loads what differs from what is held, in place of any load before.
-   * @param {{environment: {url: string}, model: ReturnType<import('./loading.js').wishOf>}} wishes url '': none
-   * @param {{environment: object|null, model: object|null}} held sources
+   * @param {{environment: {url: string}, background: {url: string}, model: ReturnType<import('./loading.js').wishOf>}} wishes url '': none
+   * @param {{environment: object|null, background: object|null, model: object|null}} held sources
    * @returns {Promise<boolean>} false where another load has begun, or this was aborted
    */
   async load(wishes, held) {
@@ -37,7 +37,7 @@ export class Loader {
     const isNew = (kind) => wishes[kind].url !== '' && held[kind]?.url !== wishes[kind].url;
     const parts = held.model?.parts ?? [];
     if (isNew('model') && !wishes.model.parts.every((part) => findPart(parts, part))) this.progress = new Progress(this.#told.progress);
-    const kinds = ['environment', 'model'].filter(isNew); // the first frame shall have the environment
+    const kinds = ['environment', 'background', 'model'].filter(isNew); // the first frame shall have the first two
     const fetches = kinds.map((kind) => this.#fetch(kind, wishes[kind], parts, signal));
     for (const [i, kind] of kinds.entries()) {
       const source = await fetches[i];

@@ -40,9 +40,20 @@ export function wishOf({ src, objects, relief, ...more }) {
   return { url: specs.length === 0 ? first : [first, ...specs].join('\n'), parts };
 }
 
+/** Does a background name a picture's file? As vtFrame_SetBackground has it. */
+export const isPictureBehind = (text) => /[./]/.test(text) && !/^(#|blurred:)/.test(text);
+
+/** A sentence where a background is none that vtFrame_SetBackground knows, or ''. */
+export function backgroundProblem(text) {
+  const [, degrees] = /^blurred:(.*)$/.exec(text) ?? [];
+  if (degrees !== undefined && !(Number(degrees) >= 1 && Number(degrees) <= 90)) return `background is '${text}'; its degrees must be from 1 to 90`;
+  if (degrees !== undefined || isPictureBehind(text) || /^(|environment|transparent|blurred|#([\da-fA-F]{3}){1,2})$/.test(text)) return '';
+  return `background is '${text}'; it must be environment, transparent, blurred, blurred:DEGREES, #rrggbb or a URL`;
+}
+
 /** The built-in of that name, or null. @returns {Source|null} */
 export function builtIn(kind, url) {
-  const names = { model: [...shapes, ...patterns], relief: patterns, environment: environments }[kind];
+  const names = { model: [...shapes, ...patterns], relief: patterns, environment: environments, background: [] }[kind];
   return names.includes(url) ? { url, name: url, contents: null } : null;
 }
 

@@ -32,8 +32,8 @@ export class Stage {
   glass = {};
   /** Of the file, to look through; null: all of the scene is in view. */
   cameraIndex = null;
-  /** @type {{model: import('./loading.js').Scene|null, environment: import('./loading.js').Source|null}} */
-  scene = { model: null, environment: builtIn('environment', 'studio') };
+  /** @type {{model: import('./loading.js').Scene|null, environment: import('./loading.js').Source|null, background: import('./loading.js').Source|null}} */
+  scene = { model: null, environment: builtIn('environment', 'studio'), background: null };
 
   #host;
   #told;
@@ -217,7 +217,7 @@ export class Stage {
     const { scene } = this;
     const pending = this.#pending;
     this.#pending = {};
-    for (const kind of ['environment', 'model']) {
+    for (const kind of ['environment', 'background', 'model']) {
       if (scene[kind] !== null) this.#upload(kind, scene[kind], false);
       if (pending[kind] !== undefined) this.#upload(kind, pending[kind]);
     }
@@ -227,6 +227,10 @@ export class Stage {
     const viewer = this.#viewer;
     if (kind === 'environment') {
       this.#shown(kind, source, isNew, source.contents === null ? viewer.attempt('SetEnvironment', source.name) : viewer.attemptFile('OpenEnvironment', source));
+      return;
+    }
+    if (kind === 'background') {
+      this.#shown(kind, source, isNew, viewer.attemptFile('BackgroundOpen', source));
       return;
     }
     const problem = viewer.begin(source.parts);

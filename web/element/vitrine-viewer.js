@@ -4,7 +4,7 @@ import { adoptProperties, attributes, defineProperties, readAttributes } from '.
 import { listenToControls } from './controls.js';
 import { coreStatistics, loadCore } from './core.js';
 import { Loader } from './loader.js';
-import { wishOf } from './loading.js';
+import { backgroundProblem, isPictureBehind, wishOf } from './loading.js';
 import { parseFieldOfView, parseOrbit, parseTarget } from './orbit.js';
 import { Stage } from './stage.js';
 import { createShadow } from './template.js';
@@ -227,10 +227,15 @@ export class VitrineViewer extends HTMLElement {
     const { values, problems } = readAttributes(this);
     const isFirst = this.#values.src === undefined;
     this.#values = values;
+    const behind = backgroundProblem(values.background);
+    if (behind) {
+      problems.push(behind);
+      values.background = '';
+    }
     const stage = this.#stage;
-    const { technique, ior, roughness, dispersion, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, samples } = values;
+    const { technique, ior, roughness, dispersion, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, toneMapping, samples } = values;
     stage.cameraIndex = values.cameraIndex;
-    stage.glass = { technique, ior, roughness: roughness ?? -1, dispersion: dispersion ?? -1, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'transparent-background': !this.hasAttribute('skybox-image') };
+    stage.glass = { technique, ior, roughness: roughness ?? -1, dispersion: dispersion ?? -1, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'tone-mapping': toneMapping, background: this.#background };
     stage.quality.mode = values.quality;
 
     this.#access.describe(values);
@@ -249,7 +254,7 @@ export class VitrineViewer extends HTMLElement {
     if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
     this.#updateSpin();
     stage.invalidate();
-    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'loading', 'environment-image', 'skybox-image'].some((name) => changed.has(name))) this.#load();
+    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */
@@ -290,14 +295,18 @@ export class VitrineViewer extends HTMLElement {
       this.#showPoster();
     }
     if (scene.model?.url !== model.url) this.#isLoaded = false;
-    for (const cause of ['model', 'environment', 'pictures']) this.#say(cause, '');
+    for (const cause of ['model', 'environment', 'background', 'pictures']) this.#say(cause, '');
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
-    if (!(await this.#loader.load({ environment: { url: environment }, model }, scene))) return;
+    if (!(await this.#loader.load({ environment: { url: environment }, background: { url: isPictureBehind(this.#background) ? this.#background : '' }, model }, scene))) return;
     try {
       this.#stage.core = await core;
     } catch (reason) {
       this.#fail('loadfailure', 'model', `The renderer cannot be loaded: ${reason.message}`, reason);
     }
+  }
+
+  get #background() {
+    return this.#values.background || (this.hasAttribute('skybox-image') ? 'environment' : 'transparent');
   }
 
   get #wish() {

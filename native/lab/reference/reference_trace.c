@@ -24,7 +24,7 @@ typedef struct Job {
     vtReferenceImage* image;
     vtCamera camera;
     int samples;
-    float exposure; ///< factor
+    float exposure;   ///< factor
     vtPathRules rules;
     vtMedia eyeMedia;    ///< what the eye is within
     vtLighting lighting; ///< of surfaces that are matt or rough

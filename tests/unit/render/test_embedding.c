@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "gl/gl.h"
+#include "image/image.h"
 #include "rendering.h"
 #include "scene/camera.h"
 
@@ -531,6 +532,34 @@ static void aBallTurnsThePictureRound(void** state)
     fixture->renderer = shared;
 }
 
+/// Where the ball is, and not beside it.
+static void tonesOfWhatIsDrawnOverAreMapped(void** state)
+{
+    Fixture* fixture = *state;
+    setShape(fixture->renderer, "sphere");
+    for (int i = 0; i < 4; ++i) {
+        Host host;
+        Matrices m;
+        uint8_t plain[4];
+        vtFrame frame =
+            beginOverlay(fixture, &host, &m, i % 2 == 0 ? vt_techniqueExact : vt_techniqueLayered);
+        frame.samples = i < 2 ? 1 : 2;
+        drawOver(fixture, &host, &frame);
+        memcpy(plain, pixelAt(fixture, side / 2 - side / 8, side / 2), 4);
+        frame.toneMapping = vt_toneMappingAces;
+        drawOver(fixture, &host, &frame);
+        const vtVec3 shown = vtToneMap(frame.toneMapping, (vtVec3){vtSrgbToLinear((float)plain[0] / 255.0f),
+                                                                   vtSrgbToLinear((float)plain[1] / 255.0f),
+                                                                   vtSrgbToLinear((float)plain[2] / 255.0f)});
+        assert_near((float)pixelAt(fixture, side / 2 - side / 8, side / 2)[1],
+                    255.0f * vtLinearToSrgb(shown.y), 1.1f);
+        assert_true(fabsf(shown.y - vtSrgbToLinear((float)plain[1] / 255.0f)) > 0.02f);
+        assert_int_equal(pixelAt(fixture, 2, side / 2)[0], redHalf);
+        host.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+        freeHost(&host);
+    }
+}
+
 /// Hidden by a depth texture, and by the framebuffer's own depth; an eye ray's hit is 3 from the eye in the
 /// middle.
 static void whatIsBeforeTheGlassHidesIt(void** state)
@@ -664,12 +693,19 @@ static void linearLightIsNotCut(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hostileStateDoesNotMatter),      cmocka_unit_test(stateAfterwardsIsAsDocumented),
-        cmocka_unit_test(matricesSeeWhatEyeAndTargetSee), cmocka_unit_test(offAxisAndRolledViews),
-        cmocka_unit_test(orthographicRaysAreParallel),    cmocka_unit_test(badMatricesAreRefused),
-        cmocka_unit_test(glassOfAirChangesNothing),       cmocka_unit_test(aBallTurnsThePictureRound),
-        cmocka_unit_test(whatIsBeforeTheGlassHidesIt),    cmocka_unit_test(aSecondPassGoesOnFromThere),
-        cmocka_unit_test(aPartOfTheFramebufferIsDrawnTo), cmocka_unit_test(linearLightIsNotCut),
+        cmocka_unit_test(hostileStateDoesNotMatter),
+        cmocka_unit_test(stateAfterwardsIsAsDocumented),
+        cmocka_unit_test(matricesSeeWhatEyeAndTargetSee),
+        cmocka_unit_test(offAxisAndRolledViews),
+        cmocka_unit_test(orthographicRaysAreParallel),
+        cmocka_unit_test(badMatricesAreRefused),
+        cmocka_unit_test(glassOfAirChangesNothing),
+        cmocka_unit_test(aBallTurnsThePictureRound),
+        cmocka_unit_test(tonesOfWhatIsDrawnOverAreMapped),
+        cmocka_unit_test(whatIsBeforeTheGlassHidesIt),
+        cmocka_unit_test(aSecondPassGoesOnFromThere),
+        cmocka_unit_test(aPartOfTheFramebufferIsDrawnTo),
+        cmocka_unit_test(linearLightIsNotCut),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);
 }

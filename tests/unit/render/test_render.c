@@ -327,7 +327,7 @@ static void transparentBackgroundLeavesTheGlassAsItIs(void** state)
     draw(fixture, &frame);
     uint8_t* opaque = malloc(sizeof fixture->pixels);
     memcpy(opaque, fixture->pixels, sizeof fixture->pixels);
-    frame.transparentBackground = true;
+    frame.background = vt_backgroundTransparent;
     draw(fixture, &frame);
     int glass = 0;
     for (int p = 0; p < side * side; ++p) {
@@ -397,7 +397,7 @@ static void severalSamplesAreTheMeanOfEach(void** state)
     for (int i = 0; i < 6; ++i) {
         vtFrame frame = smallFrame(vt_techniqueLayered);
         frame.technique = techniques[i / 2];
-        frame.transparentBackground = i % 2 == 1;
+        frame.background = i % 2 == 1 ? vt_backgroundTransparent : vt_backgroundEnvironment;
         frame.exposure = 0.5f;
         float* sum = calloc(pixelBytes, sizeof *sum);
         for (int k = 0; k < sampleCount; ++k) {
@@ -415,7 +415,7 @@ static void severalSamplesAreTheMeanOfEach(void** state)
                                           : 0.0f;
             assert_near((float)fixture->pixels[p], 255.0f * wanted, 1.6f);
         }
-        assert_true(frame.transparentBackground ? partly > side : partly == 0);
+        assert_true(frame.background == vt_backgroundTransparent ? partly > side : partly == 0);
         free(sum);
     }
 }
