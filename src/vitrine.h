@@ -475,6 +475,34 @@ VT_API vtVec3 vtEnvironment_Sample(const vtEnvironment* environment, vtVec3 dire
 /// Frees what it holds and zeroes it. Safe on NULL and on a zeroed one.
 VT_API void vtDestroyEnvironment(vtEnvironment* environment);
 
+// ---------------------------------------------------------------------------------------------- ground
+
+/// A level plane, without end, that the scene stands on. It is seen from above, directly, through glass and
+/// in reflections, by techniques `exact` and `heightfield`. Light comes to it from the upper half of the
+/// environment and from a sun. It shows what the scene does to that light: shadows, and caustics, which are
+/// light that glass bends or reflects (docs/method.md, "The ground").
+typedef struct vtGround {
+    /// World y, at or below the lowest point of the scene. NAN, the default: that point
+    float height;
+    /// False, the default: what is seen at the ground is the environment there, times the light that the
+    /// ground has over the light that it would have alone. True: a matt surface of `color`
+    bool matt;
+    vtVec3 color;          ///< linear, 0 to 1. Default 0.8, 0.8, 0.8
+    float shadowIntensity; ///< 0 (as if nothing stood there) to 1, the default: all of what the scene does
+    float shadowSoftness;  ///< 0, the default: as the lights are wide; to 1: blurred over a tenth of the map
+    /// Towards the sun, any length above 0. Its y must be above 0. 0, 0, 0, the default: the environment's
+    /// own sun, if it has one: what is bright about its brightest place and small
+    vtVec3 sunDirection;
+    float sunSize;   ///< of a sun that is given: its diameter, degrees, 0 to 90. Default 0.53
+    vtVec3 sunColor; ///< the same: irradiance of a surface that faces it, linear, 0 and above, in the unit of
+                     ///< the environment's radiance times steradians. Default 3, 3, 3
+} vtGround;
+
+VT_API vtGround vtDefaultGround(void);
+
+/// Fails with vt_errorArgument and a sentence that names field, value and range.
+VT_API vtResult vtValidateGround(const vtGround* ground, vtError* error);
+
 // ------------------------------------------------------------------------------------------------ view
 
 /// A pinhole camera. The field of view is vertical. Pixel (i, j), j = 0 on top, looks along
@@ -799,6 +827,11 @@ VT_API vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironm
 /// vt_errorArgument where it has no pixels, vt_errorContext where it is larger than the GPU's largest
 /// texture; then the one before stays.
 VT_API vtResult vtRenderer_SetBackground(vtRenderer* renderer, const vtImage* picture, vtError* error);
+/// Puts a ground under the scene in place of the one there is; NULL: none, as at first. What falls on it is
+/// computed with the next frame of a technique that shows it, and kept until scene, environment, ground or
+/// the frame's ior, fresnel or maxEvents change. Fails as vtValidateGround does; a frame that would show it
+/// fails with vt_errorArgument where the scene reaches below it.
+VT_API vtResult vtRenderer_SetGround(vtRenderer* renderer, const vtGround* ground, vtError* error);
 
 /// Geometry on the GPU, and an instance of it: in its place, of its material. Zero is none. A handle is good
 /// until what it stands for is removed or a scene is set; then calls that take it fail with vt_errorArgument.

@@ -10,7 +10,16 @@
 #include "cli/setting_options.h"
 #include "lab/metrics/timing.h"
 
-typedef enum Kind { kindFlag, kindText, kindList, kindInteger, kindNumber, kindSize, kindSetting } Kind;
+typedef enum Kind {
+    kindFlag,
+    kindText,
+    kindList,
+    kindInteger,
+    kindNumber,
+    kindSize,
+    kindSetting,
+    kindGround
+} Kind;
 
 typedef struct Option {
     const char* name;
@@ -35,6 +44,10 @@ typedef struct Option {
 #define SETTING(title, where)                                                                                \
     {                                                                                                        \
         .name = title, .kind = kindSetting, .commands = where                                                \
+    }
+#define GROUND(title, value, text)                                                                           \
+    {                                                                                                        \
+        .name = title, .kind = kindGround, .argument = value, .help = text, .commands = RENDER | VIEW        \
     }
 
 static const Option table[] = {
@@ -88,6 +101,18 @@ static const Option table[] = {
     {"background", 0, kindText, AT(background), 0, 0, "WHAT",
      "behind the scene: environment, blurred[:DEGREES], #rrggbb, a picture's file, transparent (environment)",
      RENDER | VIEW},
+    GROUND("ground", "=Y",
+           "a ground at this height, which catches shadows and light (at the scene's lowest point); exact, "
+           "heightfield and reference show it"),
+    GROUND("ground-color", "R,G,B",
+           "of a matt ground, linear, 0 to 1 each (none: what is seen of it is the environment)"),
+    GROUND("sun", "X,Y,Z[,SIZE[,R,G,B]]",
+           "light on the ground from this direction; the sun's diameter in degrees, its irradiance in the "
+           "unit of "
+           "the environment's radiance times steradians (the environment's own; 0.53, 3,3,3)"),
+    GROUND("shadow-intensity", "N", "of what the scene does to the light on the ground (1), 0 to 1"),
+    GROUND("shadow-softness", "N",
+           "0: as the lights are wide, to 1: blurred over a tenth of the map (0), 0 to 1"),
     SETTING("camera", SCENE | RAYS),
     SETTING("target", SCENE | RAYS),
     SETTING("fov", SCENE | RAYS),
@@ -200,6 +225,8 @@ static vtResult store(const Option* option, char* value, vtOptions* options, vtE
         return storeSize(option, value, &options->frame, error);
     case kindSetting:
         return storeSetting(option, value, options, error);
+    case kindGround:
+        return vtReadGroundOption(option->name, value, &options->ground, error);
     default:
         return storeNumber(option, value, field, error);
     }
@@ -210,6 +237,7 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     const vtFrame frame = vtDefaultFrame();
     *options = (vtOptions){
         .frame = frame,
+        .ground = {.ground = vtDefaultGround()},
         .environment = "studio",
         .technique = command == vt_commandBench ? VT_BENCH_TECHNIQUES : vtTechnique_Info(frame.technique)->id,
         .backend = "auto",
@@ -230,7 +258,9 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
             continue;
         }
         bool takesValue = table[i].kind != kindFlag;
-        longOptions[used++] = (struct option){table[i].name, takesValue, NULL, 256 + i};
+        const bool may = table[i].argument != NULL && table[i].argument[0] == '='; // have a value
+        longOptions[used++] =
+            (struct option){table[i].name, may ? optional_argument : takesValue, NULL, 256 + i};
         if (table[i].letter != 0) {
             letters[length++] = table[i].letter;
             letters[length] = ':';
@@ -284,7 +314,7 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     }
     // The other commands compare strict paths.
     options->fresnel = !options->noFresnel && (command == vt_commandRender || command == vt_commandView);
-    return vtSucceed(error);
+    return vtCheckGroundOptions(&options->ground, error);
 }
 
 void vtNameModels(const vtOptions* options, char* text, size_t size)
@@ -313,8 +343,9 @@ void vtPrintOptions(vtCommand command)
             vtPrintSetting(vtFindSetting(option->name));
             continue;
         }
-        snprintf(left, sizeof left, "%s--%s %s", letter, option->name,
-                 option->argument ? option->argument : "");
+        const char* argument = option->argument != NULL ? option->argument : "";
+        snprintf(left, sizeof left, argument[0] == '=' ? "%s--%s[%s]" : "%s--%s %s", letter, option->name,
+                 argument);
         if (option->high > option->low) {
             snprintf(range, sizeof range, ", %g to %g", option->low, option->high);
         }

@@ -1,6 +1,7 @@
 // A command's options as a table: it drives parsing, ranges and --help.
 #pragma once
 
+#include "cli/ground_options.h"
 #include "context/context.h"
 #include "vitrine.h"
 
@@ -16,6 +17,7 @@
 /// model.
 typedef struct vtOptions {
     vtFrame frame; ///< the settings, as given; vtMakeFrame adds what is told otherwise
+    vtGroundOptions ground;
     const char* model;
     const char* output;
     const char* environment;

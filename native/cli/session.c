@@ -50,6 +50,9 @@ vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* er
     if (result == vt_ok) {
         result = setScene(session, error);
     }
+    if (result == vt_ok && options->ground.isThere) {
+        result = vtRenderer_SetGround(session->renderer, &options->ground.ground, error);
+    }
     if (result != vt_ok) {
         vtCloseSession(session);
     }

@@ -60,6 +60,9 @@ vtResult vtRunView(const vtOptions* options, vtError* error)
     if (result == vt_ok && input.background.pixels != NULL) {
         result = vtRenderer_SetBackground(renderer, &input.background, error);
     }
+    if (result == vt_ok && options->ground.isThere) {
+        result = vtRenderer_SetGround(renderer, &options->ground.ground, error);
+    }
     if (result == vt_ok) {
         result = runLoop(window, renderer, frame, options->frames, error);
     }

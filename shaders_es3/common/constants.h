@@ -68,3 +68,9 @@
 #define VT_MAP_NEAREST 0x20000u
 #define VT_MAP_WRAP_X 18
 #define VT_MAP_WRAP_Y 20
+
+// The ground (src/light/ground.h): texels along a side of its map; directions that stand for a light, 64 x 64 texels a list
+// of them; shade rays start so far below it, of the scene's diagonal.
+#define VT_GROUND_SIDE 512
+#define VT_GROUND_SAMPLES 4096
+#define VT_GROUND_BELOW 0.001

@@ -136,6 +136,7 @@ vec3 lightAlong(Path p, Meeting opaque)
     return light;
 }
 
+#ifndef WITH_PHOTONS // photons.frag has its own
 void writeLight(vec3 light, int status)
 {
     float share = status == VT_PATH_BACKGROUND && u_output.w != 0 ? 0.0 : 1.0; // the page shows behind the glass
@@ -213,3 +214,4 @@ void main()
     writeLight(light, status);
 #endif
 }
+#endif

@@ -14,5 +14,8 @@ vec3 surroundings(vec3 position, vec3 direction, float width)
         light = seen;
     }
 #endif
+#ifdef WITH_GROUND
+    light = groundLight(position, direction, light);
+#endif
     return light;
 }

@@ -46,6 +46,8 @@ static const char* const samplerNames[vt_samplerCount] = {
     [vt_samplerHostColor] = "u_hostColor",
     [vt_samplerHostDepth] = "u_hostDepth",
     [vt_samplerBackground] = "u_background",
+    [vt_samplerGround] = "u_groundMap",
+    [vt_samplerGroundLights] = "u_groundLights",
 };
 
 void vtProgramDef_SetFragment(vtProgramDef* def, const vtChunk* const* chunks, size_t count)

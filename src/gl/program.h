@@ -8,7 +8,7 @@ typedef struct vtChunk {
     const char* source; ///< NULL: it is in vtGL.laterShaders, where a page has loaded those
 } vtChunk;
 
-#define VT_MAX_CHUNKS 24
+#define VT_MAX_CHUNKS 32
 #define VT_MAX_UNIFORMS 4
 
 /// What a program is made of: its chunks in order, after {version, precision, constants, frame}.

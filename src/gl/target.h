@@ -54,6 +54,8 @@ typedef enum vtSampler {
     vt_samplerHostColor,
     vt_samplerHostDepth,
     vt_samplerBackground,
+    vt_samplerGround,
+    vt_samplerGroundLights,
     vt_samplerCount,
 } vtSampler;
 

@@ -26,13 +26,17 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironm
            (frame->countReads ? vt_traceCounted : 0);
 }
 
-static vtProgramDef describe(vtTraceVariant variant)
+/// `photons`: rays of the ground's lights in place of those from the eye.
+static vtProgramDef describe(vtTraceVariant variant, bool photons)
 {
     const bool looks = (variant & vt_traceLooks) != 0;
     const bool heights = (variant & vt_traceHeights) != 0, opaque = looks || (variant & vt_traceOpaque) != 0;
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
+    const bool ground = (variant & vt_traceGround) != 0;
     const vtChunk* const chunks[] = {
+        photons ? &vtChunk_with_photons : NULL,
+        ground ? &vtChunk_with_ground : NULL,
         (variant & vt_traceCounted) != 0 ? &vtChunk_count_reads : NULL,
         (variant & vt_traceStrict) != 0 ? &vtChunk_strict : &vtChunk_keeps_first,
         one ? &vtChunk_one_object : NULL,
@@ -61,17 +65,29 @@ static vtProgramDef describe(vtTraceVariant variant)
         host ? &vtChunk_srgb : NULL,
         host ? &vtChunk_host_depth : NULL,
         host ? &vtChunk_backdrop : NULL,
+        ground ? &vtChunk_ground : NULL,
         &vtChunk_surroundings,
         &vtChunk_trace_frag,
+        photons ? &vtChunk_photons_frag : NULL,
     };
-    vtProgramDef def = {.name = "trace", .vertex = {&vtChunk_screen_vert}, .uniforms = {"u_branches"}};
+    vtProgramDef def = {.name = photons ? "photons" : "trace",
+                        .vertex = {&vtChunk_screen_vert},
+                        .uniforms = {"u_branches", "u_ground", photons ? "u_groundRays" : "u_groundRadiance",
+                                     photons ? "u_groundBox" : NULL}};
     vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
     return def;
 }
 
+vtProgramDef vtTracePhotons(vtTraceVariant variant)
+{
+    const unsigned ofScene =
+        vt_traceOneObject | vt_traceOpaque | vt_traceHeights | vt_traceOnlyHeights | vt_traceLooks;
+    return describe(variant & ofScene, true);
+}
+
 void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs)
 {
-    const vtProgramDef def = describe(variant);
+    const vtProgramDef def = describe(variant, false);
     vtProgramList_Start(programs, &pass->programs[variant], gl, &def);
 }
 
@@ -94,17 +110,9 @@ vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, vtTraceVariant va
     return vtMakeFramebuffer(gl, "trace", colors, host ? 3 : 2, NULL, &pass->framebuffers[host], error);
 }
 
-void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant variant,
-                      const vtTraceInputs* inputs)
+void vtBindTraced(const vtGL* gl, const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment)
 {
-    const vtProgram* program = &pass->programs[variant];
-    const vtSceneBuffer* scene = inputs->scene;
-    const vtEnvironmentBuffer* environment = inputs->environment;
     const vtHeightTexture* heights = vtSceneBuffer_Heights(scene);
-    const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
-    vtBindFramebuffer(gl, pass->framebuffers[host], pass->paths.width, pass->paths.height);
-    gl->UseProgram(program->name);
-    gl->Uniform1i(program->uniforms[0], inputs->branches);
     const vtBinding bindings[] = {
         {vt_samplerObjects, &scene->table},
         {vt_samplerRecords, &scene->geometry.records},
@@ -118,6 +126,22 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
         {vt_samplerHeightRanges, heights != NULL ? &heights->ranges : NULL},
     };
     vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
+}
+
+void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant variant,
+                      const vtTraceInputs* inputs)
+{
+    const vtProgram* program = &pass->programs[variant];
+    const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
+    vtBindFramebuffer(gl, pass->framebuffers[host], pass->paths.width, pass->paths.height);
+    gl->UseProgram(program->name);
+    gl->Uniform1i(program->uniforms[0], inputs->branches);
+    vtBindTraced(gl, inputs->scene, inputs->environment);
+    if ((variant & vt_traceGround) != 0) {
+        gl->Uniform4fv(program->uniforms[1], 1, inputs->ground->place);
+        gl->Uniform4fv(program->uniforms[2], 1, inputs->ground->radiance);
+        vtTexture_Bind(&inputs->ground->map, gl, vt_samplerGround);
+    }
     if (host) {
         vtHostPicture_Bind(inputs->host, gl);
     }

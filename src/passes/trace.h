@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/environment_buffer.h"
+#include "gl/ground_buffer.h"
 #include "gl/host_picture.h"
 #include "gl/program.h"
 #include "gl/scene_buffer.h"
@@ -15,9 +16,10 @@ typedef enum vtTraceVariant {
     vt_traceCounted = 32,    ///< texture reads are counted
     vt_traceHost = 64,       ///< over or before the host's picture
     vt_traceFootprint =
-        128,             ///< pictures are seen, the environment's or of opaque things: averaged over a pixel
-    vt_traceLooks = 256, ///< some material is not plain
-    vt_traceVariantCount = 512,
+        128,              ///< pictures are seen, the environment's or of opaque things: averaged over a pixel
+    vt_traceLooks = 256,  ///< some material is not plain
+    vt_traceGround = 512, ///< it stands on a ground
+    vt_traceVariantCount = 1024,
 } vtTraceVariant;
 
 /// The techniques that need no image of the scene: from the eye to the light in one drawing (trace.frag).
@@ -35,12 +37,18 @@ typedef struct vtTraceInputs {
     const vtSceneBuffer* scene;
     const vtEnvironmentBuffer* environment;
     const vtHostPicture* host;
-    int branches; ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
+    const vtGroundBuffer* ground; ///< for a variant with vt_traceGround
+    int branches;                 ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
 } vtTraceInputs;
 
 /// The variant for a frame.
 vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment,
                                     const vtFrame* frame);
+/// The program of a variant for rays of the ground's lights (shaders_es3/ground/photons.frag); of the
+/// variant's bits those count that say what the scene is made of.
+vtProgramDef vtTracePhotons(vtTraceVariant variant);
+/// Textures of scene and environment.
+void vtBindTraced(const vtGL* gl, const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment);
 void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs);
 vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, int width, int height,
                             vtError* error);

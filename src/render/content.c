@@ -34,6 +34,7 @@ static vtResult endChange(vtRenderer* renderer, vtResult result, vtError* error)
     vtLeaveState(&renderer->gl);
     if (result == vt_ok) {
         renderer->sampleEnd = 0;
+        renderer->ground.isStale = true;
         return vtSucceed(error);
     }
     return result;
@@ -341,6 +342,7 @@ vtResult vtRenderer_AddInstance(vtRenderer* renderer, const vtInstanceDef* def, 
     }
     vtSlots_Add(&renderer->instanceSlots, at, &id->index1, &id->generation);
     renderer->sampleEnd = 0;
+    renderer->ground.isStale = true;
     return vtSucceed(error);
 }
 
@@ -368,6 +370,7 @@ vtResult vtRenderer_SetInstance(vtRenderer* renderer, vtInstanceId id, const vtI
     renderer->scene.materials[at] = def->material;
     renderer->scene.isStale = true;
     renderer->sampleEnd = 0;
+    renderer->ground.isStale = true;
     return vtSucceed(error);
 }
 
@@ -398,6 +401,7 @@ vtResult vtRenderer_RemoveInstance(vtRenderer* renderer, vtInstanceId id, vtErro
     }
     removeInstance(renderer, at);
     renderer->sampleEnd = 0;
+    renderer->ground.isStale = true;
     return vtSucceed(error);
 }
 
@@ -445,4 +449,20 @@ vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironment* en
         tellOfEnvironment(renderer, environment);
     }
     return endChange(renderer, result, error);
+}
+
+// --------------------------------------------------------------------------------------------- ground
+
+vtResult vtRenderer_SetGround(vtRenderer* renderer, const vtGround* ground, vtError* error)
+{
+    vtResult result = vtCheckGiven(renderer, renderer, "", error);
+    result = result == vt_ok && ground != NULL ? vtValidateGround(ground, error) : result;
+    if (result != vt_ok) {
+        return result;
+    }
+    renderer->ground.isThere = ground != NULL;
+    renderer->ground.ground = ground != NULL ? *ground : vtDefaultGround();
+    renderer->ground.isStale = true;
+    renderer->sampleEnd = 0;
+    return vtSucceed(error);
 }

@@ -44,14 +44,29 @@ vtBehind vtRenderer_Behind(const vtRenderer* renderer, const vtFrame* frame)
                       .color = {vtSrgbToLinear(color.x), vtSrgbToLinear(color.y), vtSrgbToLinear(color.z)}};
 }
 
+bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame)
+{
+    return renderer->ground.isThere && vtTechnique_Row(frame->technique)->traces;
+}
+
+/// The variant of the trace pass.
+static vtTraceVariant chooseTrace(const vtRenderer* renderer, const vtFrame* frame)
+{
+    return vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame) |
+           (vtRenderer_ShowsGround(renderer, frame) ? vt_traceGround : 0);
+}
+
 void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs)
 {
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
     if (row->traces) {
-        vtTracePass_Start(&renderer->trace, gl,
-                          vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame), programs);
+        const vtTraceVariant trace = chooseTrace(renderer, frame);
+        vtTracePass_Start(&renderer->trace, gl, trace, programs);
+        if (vtRenderer_ShowsGround(renderer, frame)) {
+            vtGroundPass_Start(&renderer->ground, gl, trace, programs);
+        }
     } else {
         vtRefractPass_Start(&renderer->refract, gl, frame->technique, variant, frame->countReads, programs);
         vtShadePass_Start(&renderer->shade, gl, hasOpaque(renderer), row->surface, vtFrame_HasHost(frame),
@@ -111,12 +126,10 @@ vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, in
                                   vtError* error)
 {
     const vtGL* gl = &renderer->gl;
-    vtResult result =
-        vtTechnique_Row(frame->technique)->traces
-            ? vtTracePass_Resize(&renderer->trace, gl,
-                                 vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame),
-                                 frame->width, frame->height, error)
-            : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
+    vtResult result = vtTechnique_Row(frame->technique)->traces
+                          ? vtTracePass_Resize(&renderer->trace, gl, chooseTrace(renderer, frame),
+                                               frame->width, frame->height, error)
+                          : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
     if (result == vt_ok && hasOpaque(renderer)) {
         result = vtEnvironmentBuffer_Light(&renderer->environment, gl, error);
     }
@@ -206,11 +219,11 @@ void vtRenderer_DrawPaths(vtRenderer* renderer, const vtFrame* frame, bool layer
         return;
     }
     renderer->gl.BindVertexArray(renderer->emptyVertexArray);
-    vtTracePass_Draw(&renderer->trace, &renderer->gl,
-                     vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame),
+    vtTracePass_Draw(&renderer->trace, &renderer->gl, chooseTrace(renderer, frame),
                      &(vtTraceInputs){.scene = &renderer->scene,
                                       .environment = &renderer->environment,
                                       .host = &renderer->host,
+                                      .ground = &renderer->ground.buffer,
                                       .branches = vtFrame_BranchCount(frame)});
     vtEndStage(frame, "trace");
 }

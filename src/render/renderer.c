@@ -64,6 +64,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtRefractPass_Destroy(&renderer->refract, gl);
     vtShadePass_Destroy(&renderer->shade, gl);
     vtTracePass_Destroy(&renderer->trace, gl);
+    vtGroundPass_Destroy(&renderer->ground, gl);
     vtPresentPass_Destroy(&renderer->present, gl);
     vtAccumulatePass_Destroy(&renderer->accumulate, gl);
     vtOverlayPass_Destroy(&renderer->overlay, gl);
@@ -131,6 +132,18 @@ vtResult vtRenderer_Prepare(vtRenderer* renderer, const vtFrame* asked, bool* re
     return result;
 }
 
+/// What falls on the ground, where that is seen and has changed.
+static vtResult drawGround(vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    if (!vtRenderer_ShowsGround(renderer, frame) || !vtGroundPass_IsStale(&renderer->ground, frame)) {
+        return vt_ok;
+    }
+    vtRenderer_UploadSample(renderer, 0, 1);
+    renderer->gl.BindVertexArray(renderer->emptyVertexArray);
+    return vtGroundPass_Draw(&renderer->ground, &renderer->gl, &renderer->scene, &renderer->environment,
+                             frame, error);
+}
+
 vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* error)
 {
     vtFrame resolved;
@@ -163,6 +176,11 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     vtWriteObjectTable(&renderer->scene, frame, &camera);
     const bool sameTable = !vtSceneBuffer_SetTable(&renderer->scene, gl);
     sampleEnd = goesOn && sameTable ? sampleEnd : 0;
+    renderer->ground.isStale = renderer->ground.isStale || !sameTable;
+    result = drawGround(renderer, frame, error);
+    if (result != vt_ok) {
+        return result;
+    }
     vtEndStage(frame, "prepare");
     if (vtFrame_AddsSamples(frame)) {
         vtRenderer_DrawSamples(renderer, frame, sampleEnd);

@@ -6,6 +6,7 @@
 #include "gl/environment_buffer.h"
 #include "gl/scene_buffer.h"
 #include "passes/accumulate.h"
+#include "passes/ground.h"
 #include "passes/merge.h"
 #include "passes/overlay.h"
 #include "passes/peel.h"
@@ -28,6 +29,7 @@ struct vtRenderer {
     vtRefractPass refract;
     vtShadePass shade;
     vtTracePass trace;
+    vtGroundPass ground;
     vtPresentPass present;
     vtAccumulatePass accumulate;
     vtOverlayPass overlay;
@@ -60,6 +62,9 @@ vtResult vtRenderer_SetLaterShaders(vtRenderer* renderer, const char* file, vtEr
 /// scene buffer's world. Fails with a sentence where it cannot be drawn.
 vtResult vtRenderer_ResolveFrame(vtRenderer* renderer, const vtFrame* asked, vtFrame* frame, vtCamera* camera,
                                  vtError* error);
+
+/// Is a ground seen in the frame?
+bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame);
 
 /// Starts the programs that the frame draws with.
 void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs);

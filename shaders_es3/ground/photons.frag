@@ -1,0 +1,102 @@
+// Rays for the light on the ground, in place of those from the eye: from the ground towards a light, to see whether
+// something is in its way, or from a light through the glass, to see where it comes down. The twin of src/light/ground.c,
+// which names the sources and adds up what is found. A photon's path parts once at its first surface, and once more within
+// the glass; each part has a target. Needs what trace.frag needs, and that before it.
+uniform usampler2D u_groundLights; // directions towards the lights (bits of floats), 64 x 64 texels a list
+uniform vec4 u_ground;             // height; the map's corner, x and z; its side
+uniform vec4 u_groundRays;         // the list; 1: photons; diagonal of the scene; rays along a side of the target
+
+uniform vec4 u_groundBox[2];       // that photons go through, world
+
+layout(location = 2) out uvec4 o_third;
+
+uint scramble(uint x)
+{
+    x ^= x >> 16u;
+    x *= 0x7feb352du;
+    x ^= x >> 15u;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16u);
+}
+
+uint sampleOf(uvec2 pixel, uint across)
+{
+    uint order = 0u;
+    for (uint bit = 0u; bit < 3u; ++bit) {
+        uvec2 b = (pixel >> bit) & 1u;
+        order = 4u * order + 2u * (b.x ^ b.y) + b.y;
+    }
+    uint part = uint(VT_GROUND_SAMPLES / 64);
+    return order * part + scramble(pixel.x + pixel.y * across) % part;
+}
+
+// Where a photon comes down (bits of floats) and what is left of its light; 0: nothing.
+uvec4 landing(Path p, int status)
+{
+    float down = -p.direction.y, height = max(p.position.y - u_ground.x, 0.0);
+    vec2 at = p.position.xz + height / max(down, 1e-6) * p.direction.xz;
+    bool isDown = status == VT_PATH_EXITED && down > 1e-6;
+    vec3 left = isDown ? p.transmittance : vec3(0.0);
+    return uvec4(floatBitsToUint(at), packUnorm2x16(left.rg), packUnorm2x16(vec2(left.b, 0.0)));
+}
+
+void main()
+{
+#ifdef ONE_OBJECT
+    readObject();
+#endif
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    int index = int(sampleOf(pixel, uint(u_groundRays.w)));
+    ivec2 texel = ivec2(index % 64, index / 64 + 64 * int(u_groundRays.x));
+    vec3 light = uintBitsToFloat(readTexel(u_groundLights, texel, textureSize(u_groundLights, 0)).xyz);
+    bool isPhoton = u_groundRays.y != 0.0;
+    vec2 place = gl_FragCoord.xy / u_groundRays.w;
+
+    vec3 ground = vec3(u_ground.y + place.x * u_ground.w, u_ground.x, u_ground.z + place.y * u_ground.w);
+    ground -= VT_GROUND_BELOW * u_groundRays.z / light.y * light;
+    vec3 right = normalize(cross(light, abs(light.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
+    vec3 up = cross(light, right), extent = 0.5 * (u_groundBox[1].xyz - u_groundBox[0].xyz);
+    vec2 across = vec2(dot(abs(right), extent), dot(abs(up), extent)) * (2.0 * place - 1.0);
+    vec3 above = 0.5 * (u_groundBox[0].xyz + u_groundBox[1].xyz) + across.x * right + across.y * up + 1.5 * u_groundRays.z * light;
+
+    vec3 start = isPhoton ? above : ground;
+    Path p = startPath(start, isPhoton ? -light : light);
+    p.choice = -1.0; // the stronger part
+    p.events = isPhoton ? 0 : 1000; // of a shade ray the first event is one too many
+    Media media = AIR, asideMedia = AIR;
+    vec3 firstPosition = start, firstDirection = light, firstLight = vec3(0.0);
+    vec3 asidePosition = start, asideDirection = light, asideLight = vec3(0.0);
+    uvec4 own = uvec4(0u), first = uvec4(0u), third = uvec4(0u);
+    for (int i = 0; i < 3; ++i) { // the path itself, what its first surface reflects, what left it later
+        End end = followPath(p, media, false, false);
+        uvec4 landed = landing(p, end.status);
+        bool isOwn = i == 0;
+        if (isOwn) {
+            // Bits: it is out, wherever it goes; it has met something.
+            landed.w |= (end.status == VT_PATH_EXITED ? 0x10000u : 0u) | (p.position != start ? 0x20000u : 0u);
+            own = landed;
+            firstPosition = p.firstPosition;
+            firstDirection = p.firstDirection;
+            firstLight = vec3(p.firstShare);
+            asidePosition = p.asidePosition;
+            asideDirection = p.asideDirection;
+            asideLight = p.aside;
+            asideMedia = p.asideMedia;
+        }
+        first = i == 1 ? landed : first;
+        third = i == 2 ? landed : third;
+        p = startPath(isOwn ? firstPosition : asidePosition, isOwn ? firstDirection : asideDirection);
+        p.transmittance = isOwn ? firstLight : asideLight;
+        p.choice = -1.0;
+        p.events = 1;
+        if (!isOwn) {
+            media = asideMedia;
+        }
+        if (!isPhoton || strongest(isOwn ? max(firstLight, asideLight) : asideLight) < VT_LEAST_BRANCH) {
+            break;
+        }
+    }
+    o_path = own;
+    o_radiance = first;
+    o_third = third;
+}
