@@ -31,6 +31,12 @@ const events = [
   },
 ];
 
+const properties = [
+  { name: 'loaded', type: 'boolean', description: 'True while a model is shown.' },
+  { name: 'warnings', type: 'string[]', description: 'What of the model’s files is left out or changed, sentences; `VitrineViewer.statistics()` has those of all elements.' },
+  { name: 'availableVariants', type: 'string[]', description: 'Names of the variants of materials that the files shown have, for variant-name.' },
+];
+
 const methods = [
   { signature: 'toBlob(options?: { mimeType?: string; qualityArgument?: number }): Promise<Blob>', description: 'The picture at full quality.' },
   { signature: 'toDataURL(type?: string, qualityArgument?: number): string', description: 'The same as a data URL.' },
@@ -89,11 +95,10 @@ export declare class VitrineViewer extends HTMLElement {
   static wasmBinary: ArrayBuffer | Uint8Array | null;
   /** What vitrine-shaders.txt has in it, where that is not to be fetched either. Set before the first element. */
   static laterShaders: string | null;
+  /** What all elements of the page hold, and what of the files they show is left out or changed. */
+  static statistics: () => Promise<{ contexts: number; heapBytes: number; warnings: string[] }>;
 ${attributes.map((row) => `  /** ${row.description} Default: ${defaultOf(row) || 'empty'}. */\n  ${row.property}: ${typeOf(row)};`).join('\n')}
-  /** True while a model is shown. */
-  readonly loaded: boolean;
-  /** What of the model's files is left out or changed, sentences. */
-  readonly warnings: string[];
+${properties.map(({ name, type, description }) => `  /** ${description} */\n  readonly ${name}: ${type};`).join('\n')}
 ${methods.map(({ signature, description }) => `  /** ${description} */\n  ${signature};`).join('\n')}
   addEventListener<K extends keyof VitrineViewerEventMap>(type: K, listener: (event: VitrineViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;
   addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
@@ -161,6 +166,10 @@ ${attributes.map((each) => row([`\`${each.attribute}\``, defaultOf(each), rangeO
 ${row(['event', 'detail', 'when'])}
 |---|---|---|
 ${events.map(({ name, detail, description }) => row([`\`${name}\``, `\`${detail}\``, description])).join('\n')}
+
+## Properties without an attribute
+
+${properties.map(({ name, type, description }) => `- \`${name}: ${type}\`: ${description}`).join('\n')}
 
 ## Methods
 

@@ -3,7 +3,7 @@
 import { build } from '../tests/node_modules/esbuild/lib/main.js';
 import { execFileSync } from 'node:child_process';
 import { cpSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { dirname, join, resolve } from 'node:path';
+import { basename, dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { describeElement } from './describe-element.mjs';
@@ -12,6 +12,10 @@ const root = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 const web = join(root, 'build/web');
 const folder = join(root, 'build/package');
 const version = readFileSync(join(root, 'src/vitrine.h'), 'utf8').match(/VT_VERSION "([^"]+)"/)[1];
+
+// Modules that are loaded only for files that need them; with two of them WebAssembly.
+const decoders = ['exr', 'unpack', 'draco', 'meshopt', 'basis'];
+const decoderFiles = [...decoders.map((name) => `element/${name}.js`), 'element/draco.wasm', 'element/basis.wasm'];
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
@@ -36,7 +40,7 @@ await build({
   ...small,
   entryPoints: [join(web, 'element/vitrine-viewer.js')],
   bundle: true,
-  external: ['../vitrine-core.js', './exr.js'],
+  external: ['../vitrine-core.js', ...decoders.map((name) => `./${name}.js`)],
   plugins: [withoutDescriptions],
   outdir: join(folder, 'element'),
 });
@@ -45,16 +49,24 @@ writeFileSync(join(folder, 'index.d.ts'), types);
 writeFileSync(join(folder, 'custom-elements.json'), `${JSON.stringify(manifest, null, 2)}\n`);
 cpSync(join(root, 'docs/web.md'), join(folder, 'README.md'));
 cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
-cpSync(join(web, 'element/exr.js'), join(folder, 'element/exr.js'));
-const licences = ['parse-exr/LICENSE.md', 'fflate/LICENSE'].map((name) => `\nnpm: ${dirname(name)}\n\n${readFileSync(join(root, 'tests/node_modules', name), 'utf8')}`);
-writeFileSync(join(folder, 'NOTICES.txt'), readFileSync(join(web, 'NOTICES.txt'), 'utf8') + licences.join(''));
+for (const name of decoderFiles) cpSync(join(web, name), join(folder, name));
+await build({ ...small, entryPoints: [join(web, 'element/unpack.js')], outdir: join(folder, 'element') });
+const licences = ['parse-exr/LICENSE.md', 'fflate/LICENSE', 'meshoptimizer/LICENSE.md'].map((name) => `\nnpm: ${dirname(name)}\n\n${readFileSync(join(root, 'tests/node_modules', name), 'utf8')}`);
+const apache = `
+npm: draco3dgltf (Draco, Copyright 2016 The Draco Authors)
+npm: three (its basis_transcoder: Basis Universal, Copyright 2016-2026 Binomial LLC, a trademark of theirs; Zstandard in it, Copyright Meta Platforms, Inc. and affiliates, BSD 3-Clause)
 
-const openExrBeside = {
-  name: 'exr.js beside',
-  setup: ({ onResolve }) => onResolve({ filter: /\/exr\.js$/ }, () => ({ path: './element/exr.js', external: true })),
+${readFileSync('/usr/share/common-licenses/Apache-2.0', 'utf8')}
+
+${readFileSync('/usr/share/doc/libzstd1/copyright', 'utf8')}`;
+writeFileSync(join(folder, 'NOTICES.txt'), readFileSync(join(web, 'NOTICES.txt'), 'utf8') + licences.join('') + apache);
+
+const decodersBeside = {
+  name: 'decoders beside',
+  setup: ({ onResolve }) => onResolve({ filter: new RegExp(`/(${decoders.join('|')})\\.js$`) }, ({ path }) => ({ path: `./element/${basename(path)}`, external: true })),
 };
 
-// One file with everything in it, vitrine-shaders.txt too, but OpenEXR, for a <script type="module"> from anywhere.
+// One file with everything in it, vitrine-shaders.txt too, but decoders, for a <script type="module"> from anywhere.
 await build({
   stdin: {
     contents: `import wasm from './vitrine-core.wasm';
@@ -66,7 +78,7 @@ await build({
   },
   ...small,
   bundle: true,
-  plugins: [openExrBeside],
+  plugins: [decodersBeside],
   loader: { '.wasm': 'binary' },
   outfile: join(folder, 'vitrine-viewer.bundle.js'),
 });
@@ -112,3 +124,4 @@ const weigh = (name, when = '') => {
 const sum = loaded.reduce((bytes, name) => bytes + weigh(name), 0);
 console.log(`  all that the element loads: ${(sum / 1000).toFixed(1)} KB gzip`);
 weigh('vitrine-shaders.txt', ', loaded once a picture needs it');
+for (const name of decoderFiles) weigh(name, ', loaded once a file needs it');

@@ -1145,6 +1145,11 @@ describe('glTF files', () => {
     const page = readFileSync(join(here, '../docs/gltf.md'), 'utf8');
     const [, table] = page.split('<!-- gltf -->\n\n');
     assert.equal(table.split('\n<!-- end -->')[0], vitrine(['list', '--gltf']).text);
+    // Beside others: the same rows, and what is said of Vitrine.
+    const firstTwo = (text) => text.trim().split('\n').slice(2).map((line) => line.split(' | ').slice(0, 2).join(' | '));
+    const beside = page.split('<!-- peers -->\n\n')[1].split('\n<!-- end of peers -->')[0];
+    assert.deepEqual(firstTwo(beside), firstTwo(vitrine(['list', '--gltf']).text));
+    for (const line of beside.trim().split('\n').slice(2)) assert.match(line, /^\|[^|]+\| \w+ \|( (yes|no|plugin|\?|no fans|no loops) \|){4}$/);
     const required = scene('required.glb', (json) => (json.extensionsRequired = ['ACME_shape']));
     refuses(['render', required, ...small], ['it requires the extension ACME_shape, which is not supported', 'Supported: EXT_mesh_gpu_instancing']);
   });

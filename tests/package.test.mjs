@@ -7,6 +7,8 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { ball, model, solid } from './case-models.mjs';
+import { packDraco, packMeshopt } from './packed-models.mjs';
 import { chromiumPath, launch, openPage, quiet, serve } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -18,6 +20,8 @@ const missing = !existsSync(join(root, 'build/web/vitrine-core.wasm'))
     : !existsSync(join(here, 'node_modules/vite'))
       ? 'npm packages are not installed (tests/package.json)'
       : false;
+
+const decoders = ['exr.js', 'unpack.js', 'draco.js', 'draco.wasm', 'meshopt.js', 'basis.js', 'basis.wasm'];
 
 describe('the package', { skip: missing }, () => {
   const folder = mkdtempSync(join(tmpdir(), 'vitrine-package-'));
@@ -67,10 +71,16 @@ describe('the package', { skip: missing }, () => {
     mkdirSync(site);
     execFileSync('tar', ['-xzf', tarball, '-C', site]);
     cpSync(join(site, 'package/vitrine-viewer.bundle.js'), join(site, 'vitrine-viewer.bundle.js'));
+    mkdirSync(join(site, 'element'));
+    for (const file of ['meshopt.js', 'unpack.js']) cpSync(join(site, 'package/element', file), join(site, 'element', file));
     rmSync(join(site, 'package'), { recursive: true });
     writeFileSync(join(site, 'index.html'),
       `${head}<script type="module" src="vitrine-viewer.bundle.js"></script>${element}`);
     assert.ok((await colours(site)) > 300);
+    writeFileSync(join(site, 'packed.glb'), await packMeshopt(model([{ mesh: ball(1), material: solid([1, 1, 1]) }])));
+    writeFileSync(join(site, 'index.html'),
+      `${head}<script type="module" src="vitrine-viewer.bundle.js"></script>${element.replace('knot', 'packed.glb')}`);
+    assert.ok((await colours(site)) > 300, 'a decoder in element/');
   });
 
   test('in a fresh Vite project', async () => {
@@ -80,7 +90,9 @@ describe('the package', { skip: missing }, () => {
     const installed = spawnSync('npm', ['install', '--offline', '--no-audit', '--no-fund', tarball], { cwd: site });
     assert.equal(installed.status, 0, installed.stderr.toString());
     writeFileSync(join(site, 'main.js'), "import 'vitrine-viewer';\n");
-    writeFileSync(join(site, 'index.html'), `${head}<script type="module" src="/main.js"></script>${element}`);
+    mkdirSync(join(site, 'public'));
+    writeFileSync(join(site, 'public/packed.glb'), await packDraco(model([{ mesh: ball(1), material: solid([1, 1, 1]) }])));
+    writeFileSync(join(site, 'index.html'), `${head}<script type="module" src="/main.js"></script>${element.replace('knot', 'packed.glb')}`);
     const built = spawnSync('node', [join(here, 'node_modules/vite/bin/vite.js'), 'build', '--logLevel', 'error'], { cwd: site });
     assert.equal(built.status, 0, built.stderr.toString());
     assert.ok(readdirSync(join(site, 'dist/assets')).some((name) => name.endsWith('.wasm')), 'the wasm is an asset');
@@ -97,9 +109,10 @@ describe('the package', { skip: missing }, () => {
     for (const file of [about.types, about.main, about.customElements, 'vitrine-core.wasm', 'vitrine-shaders.txt', 'README.md', 'LICENSE']) {
       assert.ok(existsSync(join(site, 'package', file)), file);
     }
+    for (const file of decoders) assert.ok(existsSync(join(site, 'package/element', file)), file);
     assert.equal(about.license, 'MIT');
     const notices = readFileSync(join(site, 'package/NOTICES.txt'), 'utf8');
-    for (const name of ['Syoyo Fujita', 'The Emscripten Authors', 'Damien Seguin', 'Arjun Barrett']) assert.ok(notices.includes(name), name);
+    for (const name of ['Syoyo Fujita', 'The Emscripten Authors', 'Damien Seguin', 'Arjun Barrett', 'Arseny Kapoulkine', 'The Draco Authors', 'Binomial LLC', 'Apache License']) assert.ok(notices.includes(name), name);
     const manifest = JSON.parse(readFileSync(join(site, 'package/custom-elements.json'), 'utf8'));
     assert.equal(manifest.modules[0].declarations[0].tagName, 'vitrine-viewer');
     assert.match(readFileSync(join(site, 'package/index.d.ts'), 'utf8'), /cameraOrbit: string;/);
@@ -109,6 +122,10 @@ describe('the package', { skip: missing }, () => {
     const kilobytes = Number(report.match(/loads: ([\d.]+) KB/)[1]);
     context.diagnostic(report);
     assert.ok(kilobytes < 185, `${kilobytes} KB gzip`);
+    for (const [file, most] of Object.entries({ 'exr.js': 12, 'unpack.js': 4, 'draco.js': 14, 'draco.wasm': 70, 'meshopt.js': 9, 'basis.js': 14, 'basis.wasm': 260 })) {
+      const bytes = Number(report.match(new RegExp(`element/${file}: \\d+ bytes, (\\d+) gzip, loaded once a file needs it`))?.[1]);
+      assert.ok(bytes > 0 && bytes < 1000 * most, `${file}: ${bytes} bytes gzip`);
+    }
   });
 });
 

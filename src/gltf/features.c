@@ -33,6 +33,13 @@
 #define LACKS_MESHOPT "libmeshoptimizer"
 #endif
 
+/// Pictures that a browser decodes, by itself or by element/basis.js.
+#ifdef __EMSCRIPTEN__
+#define BROWSERS vt_gltfDrawn
+#else
+#define BROWSERS vt_gltfRefused
+#endif
+
 static const vtGltfFeature features[] = {
 #ifdef VT_WITH_ABOUT // what no material is asked for
     CORE("scenes, nodes, matrices", vt_gltfDrawn,
@@ -64,10 +71,15 @@ static const vtGltfFeature features[] = {
     CORE("two sets of texture coordinates", vt_gltfDrawn, "any two for a material"),
 #endif
     EXTENSION("EXT_mesh_gpu_instancing", vt_gltfDrawn, "translations, rotations, scales"),
-    DECODED("EXT_meshopt_compression", LACKS_MESHOPT, "all modes and filters; by libmeshoptimizer"),
+    DECODED("EXT_meshopt_compression", LACKS_MESHOPT,
+            "all modes and filters; by libmeshoptimizer, npm's meshoptimizer in a browser"),
+    EXTENSION(
+        "EXT_texture_avif", BROWSERS,
+        "drawn in a browser; else the PNG or JPEG beside it is taken, and where there is none, the file "
+        "is refused"),
     EXTENSION("EXT_texture_webp", vt_gltfDrawn, ""),
     EXTENSION("KHR_animation_pointer", vt_gltfIgnored, "as animations"),
-    DECODED("KHR_draco_mesh_compression", LACKS_DRACO, "by libdraco"),
+    DECODED("KHR_draco_mesh_compression", LACKS_DRACO, "by libdraco, npm's draco3dgltf in a browser"),
     EXTENSION("KHR_lights_punctual", vt_gltfApproximated,
               "opaque things are lit, glass has highlights; nothing casts shadows"),
     EXTENSION("KHR_materials_anisotropy", vt_gltfIgnored, ""),
@@ -91,10 +103,12 @@ static const vtGltfFeature features[] = {
               "attenuation in world units; thickness is that of the body itself"),
     EXTENSION("KHR_mesh_quantization", vt_gltfDrawn, "every type, normalized or not, morph targets too"),
     DECODED("KHR_meshopt_compression", LACKS_MESHOPT,
-            "as EXT_meshopt_compression; what is newer than that is refused"),
+            "as EXT_meshopt_compression; what is newer than that is refused, but drawn in a browser"),
     EXTENSION("KHR_node_visibility", vt_gltfDrawn, ""),
-    EXTENSION("KHR_texture_basisu", vt_gltfRefused,
-              "the PNG or JPEG beside it is taken; where there is none, the file is refused"),
+    EXTENSION(
+        "KHR_texture_basisu", BROWSERS,
+        "drawn in a browser; else the PNG or JPEG beside it is taken, and where there is none, the file "
+        "is refused"),
     EXTENSION("KHR_texture_transform", vt_gltfDrawn, ""),
     EXTENSION("KHR_xmp_json_ld", vt_gltfIgnored, "it says nothing of looks"),
 };

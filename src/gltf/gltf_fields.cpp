@@ -154,6 +154,7 @@ static const Field fields[] = {
     {Kind::texture, "source", Take::index, {}},
     {Kind::texture, "sampler", Take::index, {}},
     {Kind::texture, "extensions", Take::extensions, Kind::textureExtension},
+    {Kind::textureExtension, "EXT_texture_avif", Take::object, Kind::textureSource},
     {Kind::textureExtension, "EXT_texture_webp", Take::object, Kind::textureSource},
     {Kind::textureExtension, "KHR_texture_basisu", Take::object, Kind::textureSource},
     {Kind::textureSource, "source", Take::index, {}},

@@ -199,7 +199,7 @@ bool findTextureSource(Loader& loader, int index, int* source)
 {
     const tinygltf::Texture& texture = loader.model.textures[(size_t)index];
     std::string unread;
-    for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"}) {
+    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"}) {
         const auto at = texture.extensions.find(name);
         if (at == texture.extensions.end() || !at->second.Has("source")) {
             continue;

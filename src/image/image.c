@@ -42,6 +42,10 @@ static const Format formats[] = {
     {"PNG", "\x89PNG\r\n\x1a\n", 8, true, VT_NATIVE(vtDecodePngRaster)},
     {"JPEG", "\xFF\xD8\xFF", 3, true, VT_NATIVE(vtDecodeJpegRaster)},
     {"WebP", "RIFF", 4, true, VT_NATIVE(vtDecodeWebpRaster)},
+#ifdef VT_HDR_ONLY
+    {"AVIF", "ftyp", 4, true, NULL}, // behind four bytes
+    {"KTX 2", "\xABKTX 20\xBB", 8, true, NULL},
+#endif
     {"OpenEXR", "\x76\x2f\x31\x01", 4, false, VT_NATIVE(vtDecodeExrRaster)},
     {"HDR", "#?", 2, false, vtDecodeHdrRaster},
     {"PFM", "PF", 2, false, vtDecodePfmRaster},
@@ -54,7 +58,9 @@ static const Format* findFormat(const uint8_t* bytes, size_t size)
 {
     for (int i = 0; i < formatCount; ++i) {
         const Format* format = &formats[i];
-        const bool begins = size >= format->length && memcmp(bytes, format->beginning, format->length) == 0;
+        const size_t at = format->beginning[0] == 'f' ? 4 : 0;
+        const bool begins =
+            size >= at + format->length && memcmp(bytes + at, format->beginning, format->length) == 0;
         if (begins && (format->beginning[0] != 'R' || (size >= 12 && memcmp(bytes + 8, "WEBP", 4) == 0)) &&
             (format->beginning[0] != 'P' || vtIsPfm(bytes, size))) {
             return format;

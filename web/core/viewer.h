@@ -19,10 +19,12 @@ typedef struct vtViewer {
     vtPreparation* preparation; ///< of that; NULL: not begun
     vtTracer* tracer;           ///< of `scene`, with which it goes; NULL: no path was asked for
     vtKeptRelief kept;
-    vtFrame frame;  ///< of the canvas; each tick draws one of its samples
-    vtFrame wanted; ///< the settings that vtViewer_Set was told, for vtViewer_SetGlass
-    int sample;     ///< the next one
-    bool changed;   ///< since the frame drawn last
+    vtWalls walls;     ///< of files that are added
+    char variant[256]; ///< of their materials; empty: as they are
+    vtFrame frame;     ///< of the canvas; each tick draws one of its samples
+    vtFrame wanted;    ///< the settings that vtViewer_Set was told, for vtViewer_SetGlass
+    int sample;        ///< the next one
+    bool changed;      ///< since the frame drawn last
     int drawCount;
     uint8_t* image; ///< the last one of vtViewer_Image
     vtError error;

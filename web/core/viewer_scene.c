@@ -1,6 +1,7 @@
 // What a viewer shows: a scene put together of shapes, reliefs and models, its pictures, its cameras. The
 // calls are like those of viewer.c.
 #include <emscripten.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -46,6 +47,14 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddShape(vtViewer* viewer, const char*
     return sentence(viewer, result == vt_ok ? vtViewer_AddMesh(viewer, &mesh, name, &spec) : result);
 }
 
+/// How the files added from here on are read: their glass, and a variant of their materials or "". What is
+/// too long is cut, and no file has it then.
+EMSCRIPTEN_KEEPALIVE void vtViewer_Expect(vtViewer* viewer, int walls, const char* variant)
+{
+    viewer->walls = walls < 0 ? vt_wallsAuto : (vtWalls)walls;
+    snprintf(viewer->variant, sizeof viewer->variant, "%s", variant);
+}
+
 /// Adds the contents of a .glb or self-contained .gltf, or heights.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* bytes, size_t size,
                                                    const char* name, const char* text, int source)
@@ -55,11 +64,15 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* by
     }
     vtScene made;
     vtObjectSpec spec;
-    const vtModelDef def = {.bytes = bytes, .size = size, .name = name};
+    const vtModelDef def = {.bytes = bytes, .size = size, .name = name, .variant = viewer->variant};
     vtResult result = vtViewer_ReadSpec(viewer, text, vt_kindMesh, &spec);
     result = result == vt_ok ? vtLoadScene(&def, &made, &viewer->error) : result;
     free(bytes);
-    return sentence(viewer, result == vt_ok ? vtViewer_Add(viewer, &made, &spec) : result);
+    if (result != vt_ok) {
+        return sentence(viewer, result);
+    }
+    vtScene_SetWalls(&made, viewer->walls);
+    return sentence(viewer, vtViewer_Add(viewer, &made, &spec));
 }
 
 /// Pictures of the scene that was begun.

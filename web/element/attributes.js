@@ -34,7 +34,7 @@ const ofPreset = { integer: true, defaultText: "the preset's" };
 
 /** @type {Attribute[]} */
 export const attributes = [
-  string('src', `URL of a .glb or self-contained .gltf, or a built-in shape: ${shapes.join(', ')}.`),
+  string('src', `URL of a .glb or .gltf, or a built-in shape: ${shapes.join(', ')}.`),
   string('relief', `In place of src: relief glass, a slab whose front is a height field: a built-in one, ${patterns.join(', ')}, or URL of a picture, black the lowest, white the highest; .hdr and .pfm hold more than 256 heights.`),
   number('relief-depth', 0, 10, null, 'From black to white; the longer side is 2.', { defaultText: "0.1, a built-in relief's own" }),
   number('relief-slab', 0.001, 10, 0.1, 'Thickness of the glass behind black.'),
@@ -61,6 +61,8 @@ export const attributes = [
   number('roughness', 0, 1, null, 'Of all glass: 0 is clear, 1 frosted.', { defaultText: "each object's own" }),
   number('dispersion', 0, 20, null, 'Of all glass: 20 over its Abbe number (diamond 0.36, flint 0.55).', { defaultText: "each object's own" }),
   oneOf('fresnel', ['off', 'on'], 'on: glass reflects where it refracts, by Fresnel; off: only where it must.', { default: 'on' }),
+  oneOf('walls', ['auto', 'thin', 'solid'], 'Glass of files: as the file says, or all of it thin walls or solid bodies.'),
+  string('variant-name', 'Of the variants of materials (KHR_materials_variants) that files have; `availableVariants` lists them. Empty: the materials as they are.'),
   oneOf('technique', techniques, 'How the glass is computed; see `vitrine list`.', { default: null, defaultText: '`exact`; `heightfield` where there is a relief' }),
   oneOf('preset', ['low', 'medium', 'high'], 'What layers, steps and max-events are where they are absent, and how often exact follows what glass reflects: never, once or twice. Less work for weak GPUs, more accuracy for strong ones.', { default: 'medium' }),
   number('layers', 1, 16, null, 'Depth layers peeled, by the techniques that peel: layered and kay-….', ofPreset),

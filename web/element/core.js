@@ -47,12 +47,14 @@ function loadShaders(core) {
   return shaders;
 }
 
-/** What is held at present, for measurements. */
+/** What is held at present, for measurements, and what of the files that are shown is left out or changed. */
 export async function coreStatistics() {
   const core = await loading;
-  return { contexts: viewers.size, heapBytes: core?.HEAPU8.length ?? 0 };
+  const warnings = [...viewers].filter(({ isLost }) => !isLost).flatMap(({ notes }) => notes);
+  return { contexts: viewers.size, heapBytes: core?.HEAPU8.length ?? 0, warnings };
 }
 
+const { values: wallsNames } = attributes.find(({ attribute }) => attribute === 'walls'); // in the order of vtWalls
 const workAtOnce = 20000; // triangles looked at: a few milliseconds
 
 /** A context, the renderer in it, and the calls of web/core/viewer.c. */
@@ -170,20 +172,21 @@ export class Viewer {
   }
 
   /** Adds a part to the scene that was begun; heights that the core keeps are not put into its memory again. */
-  #add({ kind, name, contents, spec }) {
+  #add({ kind, name, contents, spec, variants }, { walls, variantName }) {
     if (contents === null) return this.attempt('AddShape', name, spec);
     const number = this.#numberOf(contents);
     if (this.call('Keeps', spec, number)) return this.attempt('AddRelief', 0, 0, name, spec, number);
+    this.call('Expect', wallsNames.indexOf(walls), variants?.includes(variantName) ? variantName : '');
     return this.attemptFile(kind === 'relief' ? 'AddRelief' : 'AddModel', { name, contents, spec });
   }
 
-  /** Begins a scene of these parts; it is not shown yet. @param {import('./loading.js').Source[]} parts @returns {string} a sentence, or '' */
-  begin(parts) {
+  /** Begins a scene of these parts; it is not shown yet. @param {import('./loading.js').Source[]} parts @param {{walls?: string, variantName?: string}} looks of files @returns {string} a sentence, or '' */
+  begin(parts, looks = {}) {
     this.images = []; // that the browser must decode
     this.call('Begin');
     for (const part of parts) {
       const first = this.call('ImageCount');
-      const problem = this.#add(part);
+      const problem = this.#add(part, looks);
       if (problem) return problem;
       for (let index = first; index < this.call('ImageCount'); ++index) {
         const place = this.call('ImageBytes', index);

@@ -1,5 +1,5 @@
 // The files of one element: fetched side by side, shown environment first, dropped where the wish has changed.
-import { Progress, builtIn, fetchSource } from './loading.js';
+import { Progress, builtIn, fetchSource, lookInto, urlBeside } from './loading.js';
 import { decodePicture, mayBePicture } from './picture.js';
 
 /** The part that was made from the same. */
@@ -48,9 +48,9 @@ export class Loader {
   }
 
   /** Null where it failed. */
-  async #fetch(kind, { url, parts }, held, signal) {
+  async #fetch(kind, { url, parts, walls, variantName }, held, signal) {
     try {
-      if (kind === 'model') return { url, parts: await this.#fetchParts(parts, held, signal) };
+      if (kind === 'model') return { url, walls, variantName, parts: await this.#fetchParts(parts, held, signal) };
       const source = await this.#fetchOne(kind, url, signal);
       if (source.contents !== null) source.contents = await decodePicture(source.contents);
       return source;
@@ -73,16 +73,38 @@ export class Loader {
 
   async #fetchPart({ kind, url }, signal) {
     const source = await this.#fetchOne(kind, url, signal);
-    if (source.contents !== null && mayBePicture(source.contents)) source.contents = await decodePicture(source.contents);
+    if (source.contents === null) return source;
+    if (mayBePicture(source.contents)) source.contents = await decodePicture(source.contents);
+    else await this.#openModel(source, signal);
     return source;
   }
 
+  /** A model becomes one file that the core reads. */
+  async #openModel(source, signal) {
+    const { isPacked, variants } = lookInto(source.contents);
+    source.variants = variants;
+    if (!isPacked) return;
+    const { unpack } = await import('./unpack.js').catch((reason) => {
+      throw new Error(`${source.name}: it is packed, or in several files, and element/unpack.js cannot be loaded (${reason.message}); serve it with the element`, { cause: reason });
+    });
+    source.contents = await unpack(source.contents, source.name, async (uri, what) => {
+      const file = await this.#fetchFile('file', urlBeside(source.url, uri, what), signal);
+      return file.contents;
+    });
+  }
+
   async #fetchOne(kind, url, signal) {
+    const known = builtIn(kind, url);
+    if (!known) return this.#fetchFile(kind, url, signal);
+    this.progress?.expect(`${kind} ${url}`);
+    this.progress?.bytes(`${kind} ${url}`, 1, 1);
+    return known;
+  }
+
+  #fetchFile(kind, url, signal) {
     const { progress } = this;
     const key = `${kind} ${url}`;
     progress?.expect(key);
-    const known = builtIn(kind, url);
-    if (known) progress?.bytes(key, 1, 1);
-    return known ?? fetchSource(url, signal, (received, total) => progress?.bytes(key, received, total));
+    return fetchSource(url, signal, (received, total) => progress?.bytes(key, received, total));
   }
 }

@@ -9,12 +9,15 @@ import { environments, patterns, shapes } from './attributes.js';
  * @property {Uint8Array|ImageBitmap|null} contents
  * @property {string} [spec] of a part: name and keys as in the attribute `objects`; '': as it is
  * @property {'model'|'relief'} [kind] of a part
+ * @property {string[]} [variants] of a file's materials, names
  */
 
 /**
  * @typedef {object} Scene
  * @property {string} url that of its wish
  * @property {Source[]} parts
+ * @property {'auto'|'thin'|'solid'} [walls] of the glass of files
+ * @property {string} [variantName] of materials; '': as files have them
  * @property {Map<number, ImageBitmap>} [pictures] of the parts' materials, once they are decoded
  */
 
@@ -29,15 +32,17 @@ function reliefOf(values) {
 /**
  * What `relief` or `src`, and `objects` ask for; `url` tells one wish from another.
  * @param {object} values of the attributes
- * @returns {{url: string, parts: {kind: 'model'|'relief', url: string, spec: string}[]}}
+ * @returns {{url: string, walls: string, variantName: string, parts: {kind: 'model'|'relief', url: string, spec: string}[]}}
  */
-export function wishOf({ src, objects, relief, ...more }) {
+export function wishOf({ src, objects, relief, walls, variantName, ...more }) {
   const specs = objects.split(/[;\n]/).map((text) => text.trim().replace(/\s*([:=,])\s*/g, '$1')).filter(Boolean);
   const parts = specs.map((spec) => ({ kind: 'model', url: spec.replace(/:[^:/]*$/, ''), spec })); // URLs have a slash behind their last colon
   if (relief !== '') parts.unshift(reliefOf({ relief, ...more }));
   else if (src !== '') parts.unshift({ kind: 'model', url: src, spec: '' });
   const first = relief === '' ? src : `${relief} ${parts[0].spec}`;
-  return { url: specs.length === 0 ? first : [first, ...specs].join('\n'), parts };
+  const url = specs.length === 0 ? first : [first, ...specs].join('\n');
+  const looks = parts.length === 0 || (walls === 'auto' && variantName === '') ? '' : `\n${walls}\n${variantName}`;
+  return { url: url + looks, walls, variantName, parts };
 }
 
 /** Does a background name a picture's file? As vtFrame_SetBackground has it. */
@@ -97,6 +102,38 @@ export async function fetchSource(url, signal, onBytes) {
     place += chunk.length;
   }
   return { url, name, contents: bytes };
+}
+
+/**
+ * Where a file is that a model names: in the model's folder or one below.
+ * @param {string} model URL, relative to the page
+ * @param {string} uri
+ * @param {string} what a buffer or a picture
+ * @throws {Error} why it is not fetched
+ */
+export function urlBeside(model, uri, what) {
+  const base = new URL(model, document.baseURI);
+  if (!/^https?:$/.test(base.protocol)) throw new Error(`this model has no folder; export it as one .glb`); // dropped onto the page
+  const { href, origin, pathname } = new URL(uri, base);
+  const isInside = origin === base.origin && pathname.startsWith(new URL('.', base).pathname) && !/%2f|%5c/i.test(pathname);
+  if (!isInside) throw new Error(`it lies outside the model's folder; put the ${what} beside the model`);
+  return href;
+}
+
+/**
+ * What has to be known of a model before the core reads it.
+ * @param {Uint8Array} bytes .glb or .gltf
+ * @returns {{isPacked: boolean, variants: string[]}} isPacked: in several files, or geometry is packed, which unpack.js mends
+ */
+export function lookInto(bytes) {
+  const isBinary = bytes[0] === 0x67 && bytes.length > 20;
+  const text = new TextDecoder().decode(isBinary ? bytes.subarray(20, 20 + new DataView(bytes.buffer).getUint32(12, true)) : bytes);
+  const isPacked = /"KHR_draco_mesh_compression"|"(EXT|KHR)_meshopt_compression"|"uri"\s*:\s*"(?!data:)/.test(text);
+  let variants = [];
+  try {
+    if (/"KHR_materials_variants"/.test(text)) variants = JSON.parse(text).extensions.KHR_materials_variants.variants.map(({ name }) => String(name));
+  } catch {} // the core says what is wrong
+  return { isPacked, variants };
 }
 
 /** One number from 0 to 1 for all files of a load; it never goes back. */

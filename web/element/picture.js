@@ -1,4 +1,4 @@
-// PNG, JPEG, WebP and AVIF, which the browser decodes, and OpenEXR, which exr.js does; the core reads Radiance HDR and PFM only.
+// PNG, JPEG, WebP and AVIF, which the browser decodes, OpenEXR, which exr.js does, and Basis Universal, which basis.js does; the core reads Radiance HDR and PFM only.
 
 const largestTexture = 2048; // VT_MAX_ARRAY_SIDE
 const largestRelief = 4096; // VT_MAX_RELIEF_SIDE
@@ -13,7 +13,9 @@ export async function decodePicture(bytes) {
   if (bytes[0] === 0x23 && bytes[1] === 0x3f) return bytes; // "#?" of Radiance HDR
   if (bytes[0] === 0x76 && bytes[1] === 0x2f) return import('./exr.js').then(({ exrToPfm }) => exrToPfm(bytes)).catch(() => bytes);
   const asInTheFile = { colorSpaceConversion: 'none', premultiplyAlpha: 'none' };
-  return createImageBitmap(new Blob([bytes]), asInTheFile).catch(() => bytes);
+  const isKtx = bytes[0] === 0xab && bytes[1] === 0x4b;
+  const source = isKtx ? import('./basis.js').then(({ ktxToPicture }) => ktxToPicture(bytes)) : Promise.resolve(new Blob([bytes]));
+  return source.then((picture) => createImageBitmap(picture, asInTheFile)).catch(() => bytes);
 }
 
 /** Not where it begins as a .glb or .gltf does. @param {Uint8Array} bytes */

@@ -25,6 +25,13 @@ const stillAfter = 250; // milliseconds without motion until the full frame
  * @property {(sentence: string) => void} unsupported
  */
 
+/** A sentence where no file has the variant that is asked for; their materials are as they are then. */
+function variantProblem({ variantName = '', parts }) {
+  const names = parts.flatMap(({ variants }) => variants ?? []);
+  if (variantName === '' || names.includes(variantName)) return '';
+  return `variant-name is '${variantName}'; ${names.length > 0 ? `the files have ${names.map((name) => `'${name}'`).join(', ')}` : 'the files have none; leave it away'}`;
+}
+
 export class Stage {
   orbit = new Orbit();
   quality = new Quality();
@@ -233,7 +240,7 @@ export class Stage {
       this.#shown(kind, source, isNew, viewer.attemptFile('BackgroundOpen', source));
       return;
     }
-    const problem = viewer.begin(source.parts);
+    const problem = viewer.begin(source.parts, source);
     if (problem) this.#shown(kind, source, isNew, problem);
     else if (source.pictures === undefined && viewer.images.length > 0) this.#decode(source, viewer.images);
     else this.#build(source, isNew);
@@ -252,6 +259,7 @@ export class Stage {
           this.#framedFor = '';
           this.#refused &&= {};
           if (isNew) this.#told.noted(viewer.notes);
+          this.#told.warned('variant', variantProblem(source));
         }
         this.#shown('model', source, isNew, problem);
       } else {

@@ -84,6 +84,11 @@ export class VitrineViewer extends HTMLElement {
     return this.#warnings;
   }
 
+  /** Names of the variants of materials that the files shown have, for variant-name. */
+  get availableVariants() {
+    return [...new Set(this.#stage.scene.model?.parts.flatMap(({ variants }) => variants ?? []))];
+  }
+
   /** The poster is gone and the model can be seen. */
   get modelIsVisible() {
     return this.#hasFrame && this.#shadow.poster.hidden;
@@ -254,7 +259,7 @@ export class VitrineViewer extends HTMLElement {
     if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
     this.#updateSpin();
     stage.invalidate();
-    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
+    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */

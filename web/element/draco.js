@@ -1,0 +1,66 @@
+// Primitives packed by Draco (KHR_draco_mesh_compression), unpacked by npm's draco3dgltf: with it a module of its own, and
+// draco.wasm beside it, which a page loads only for such a model.
+import createDraco from 'draco3dgltf/draco_decoder_gltf_nodejs.js';
+
+/** glTF's types of components by Draco's names of them. */
+const types = { 5120: 'DT_INT8', 5121: 'DT_UINT8', 5122: 'DT_INT16', 5123: 'DT_UINT16', 5125: 'DT_UINT32', 5126: 'DT_FLOAT32' };
+const widths = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
+
+let loading = null;
+
+/** The decoder. A load that failed is tried again by the next call. */
+export function load() {
+  const fetchIt = async () => {
+    const response = await fetch(new URL('./draco.wasm', import.meta.url));
+    if (!response.ok) throw new Error(`the server answered ${response.status} to draco.wasm`);
+    return createDraco({ wasmBinary: await response.arrayBuffer() });
+  };
+  loading ??= fetchIt().catch((reason) => {
+    loading = null;
+    throw reason;
+  });
+  return loading;
+}
+
+/** The bytes that `write` puts at an address; null where it fails. */
+function take(draco, size, write) {
+  const place = draco._malloc(size || 1);
+  if (place === 0) throw new Error('out of memory');
+  const bytes = write(place) ? draco.HEAPU8.slice(place, place + size) : null;
+  draco._free(place);
+  return bytes;
+}
+
+/**
+ * @param draco what load gave
+ * @param {Uint8Array} bytes
+ * @param {Map<string, {id: number, componentType: number, components: number}>} wanted by the names of attributes
+ * @param {(size: number) => void} spend told of sizes before memory is taken; may throw
+ * @returns {{vertexCount: number, attributes: Map<string, Uint8Array>, indices: Uint8Array}} indices of 32 bits
+ * @throws {Error} why not
+ */
+export function decode(draco, bytes, wanted, spend) {
+  const decoder = new draco.Decoder(), mesh = new draco.Mesh();
+  try {
+    const status = decoder.DecodeArrayToMesh(new Int8Array(bytes.buffer, bytes.byteOffset, bytes.length), bytes.length, mesh);
+    if (!status.ok()) throw new Error(status.error_msg());
+    const vertexCount = mesh.num_points(), attributes = new Map();
+    for (const [name, { id, componentType, components }] of wanted) {
+      const attribute = decoder.GetAttributeByUniqueId(mesh, id), type = draco[types[componentType]];
+      const size = vertexCount * components * widths[componentType];
+      const fits = attribute.ptr !== 0 && type !== undefined && attribute.num_components() === components;
+      if (fits) spend(size);
+      const data = fits && take(draco, size, (place) => decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, type, size, place));
+      if (!data) throw new Error(`it has no ${name} as its accessor says`);
+      attributes.set(name, data);
+    }
+    const size = 12 * mesh.num_faces();
+    spend(size);
+    const indices = take(draco, size, (place) => decoder.GetTrianglesUInt32Array(mesh, size, place));
+    if (!indices) throw new Error('it has no triangles');
+    return { vertexCount, attributes, indices };
+  } finally {
+    draco.destroy(mesh);
+    draco.destroy(decoder);
+  }
+}
