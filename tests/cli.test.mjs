@@ -475,6 +475,13 @@ describe('objects', () => {
     for (const [spec, parts] of Object.entries(bad)) refuses(render(...object(spec)), parts);
     refuses(render(...object(...Array(65).fill('sphere'))), ["'sphere' is one too many; at most 64"]);
     refuses(render('sphere', '--multi', 'some'), ["--multi is 'some'; it must be any or ordered"]);
+    refuses(render('sphere', '--ground=deep'), ["--ground is 'deep'; it must be a number"]);
+    refuses(render('sphere', '--ground=0.5'), ['it lies at 0.5, but the scene reaches down to -1']);
+    refuses(render('sphere', '--ground', '--sun', '1,2'), ["--sun is '1,2'; it must be X,Y,Z towards it"]);
+    refuses(render('sphere', '--ground', '--sun', '0,-1,0'), ["the sun's direction is 0, -1, 0; it must point up"]);
+    refuses(render('sphere', '--ground', '--ground-color', '1,2,1'), ['its color is 2; it must be from 0 to 1']);
+    refuses(render('sphere', '--sun', '1,1,1'), ['--sun says something of a ground; add --ground']);
+    refuses(render('sphere', '--ground', '--shadow-softness', '3'), ['its shadow softness is 3; it must be from 0 to 1']);
     refuses(render('sphere', '--search', 'rays'), ["--search is 'rays'; it must be steps or cells"]);
   });
 
@@ -1176,6 +1183,8 @@ describe('golden images', async () => {
     'knot-analysis': ['knot', '--analysis'],
     'torus-two-layers': ['torus', '-t', 'layered', '-e', 'checker', '--layers', '2'],
     'technique-layered-cells': ['knot', '-e', 'sky', '-t', 'layered', '--search', 'cells'],
+    'ground-goblet': ['goblet', '--ground', '--sun', '1,1.2,-0.8,1', '--ground-color', '0.2,0.18,0.16', '--camera', '1.8,1.6,2.4', '--target=-0.3,-0.5,0'],
+    'ground-sky': ['sphere', '--object', 'cube:opaque,at=1.6,-0.6,0,scale=0.4', '-e', 'sky', '--ground', '--camera', '3,2.4,4', '--target', '0.4,-0.4,0'],
     'wyman-farthest': ['knot', '-e', 'sky', '-t', 'wyman', '--back-surface', 'farthest'],
   };
   // One baseline for every row of the technique table.

@@ -37,7 +37,8 @@ static vtResult readSun(const char* text, vtGround* ground, vtError* error)
     }
     ground->sunDirection = (vtVec3){numbers[0], numbers[1], numbers[2]};
     if (numbers[0] == 0.0f && numbers[1] == 0.0f && numbers[2] == 0.0f) {
-        return vtFail(error, vt_errorArgument, "--sun is '%.200s'; it must have a direction other than 0,0,0", text);
+        return vtFail(error, vt_errorArgument, "--sun is '%.200s'; it must have a direction other than 0,0,0",
+                      text);
     }
     ground->sunSize = count > 3 ? numbers[3] : ground->sunSize;
     ground->sunColor = count > 4 ? (vtVec3){numbers[4], numbers[5], numbers[6]} : ground->sunColor;
@@ -69,16 +70,17 @@ vtResult vtReadGroundOption(const char* option, const char* text, vtGroundOption
     if (readNumbers(text, numbers, 1) != 1) {
         return vtFail(error, vt_errorArgument, "--%s is '%.200s'; it must be a number", option, text);
     }
-    *(isGround                                  ? &ground->height
+    *(isGround                                 ? &ground->height
       : strcmp(option, "shadow-softness") == 0 ? &ground->shadowSoftness
-                                                : &ground->shadowIntensity) = numbers[0];
+                                               : &ground->shadowIntensity) = numbers[0];
     return vt_ok;
 }
 
 vtResult vtCheckGroundOptions(const vtGroundOptions* options, vtError* error)
 {
     if (options->needed != NULL && !options->isThere) {
-        return vtFail(error, vt_errorArgument, "--%s says something of a ground; add --ground", options->needed);
+        return vtFail(error, vt_errorArgument, "--%s says something of a ground; add --ground",
+                      options->needed);
     }
     return vtValidateGround(&options->ground, error);
 }

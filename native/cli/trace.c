@@ -34,6 +34,7 @@ vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* 
         .environment = &input->environment,
         .samples = options->samples,
         .fresnel = frame->fresnel,
+        .ground = options->ground.isThere ? &options->ground.ground : NULL,
         .progress = isatty(STDERR_FILENO) ? showProgress : NULL,
         .userData = &start,
     };

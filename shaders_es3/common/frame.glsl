@@ -15,7 +15,7 @@ layout(std140) uniform Frame
     ivec4 u_size;    // picture width, height, layer width, height
     ivec4 u_scene;   // objects of glass, objects, Fresnel reflection, the technique finds what is opaque itself
     ivec4 u_output;  // vtOutput, layer, vtEnvironmentKind, vtBackground
-    ivec4 u_host;    // the picture's lower left corner in the framebuffer; 1: linear light is wanted, 2: tone mapping;
+    ivec4 u_host;    // the picture's lower left corner in the framebuffer; whether linear light is wanted;
                      // 1: the host gives colours, 2: depths, 4: its colours are linear
     vec4 u_clip;     // third row of the host's projection: element of depth, constant; depth from which on there is
                      // nothing; 1: it is orthographic, and tangents are world units

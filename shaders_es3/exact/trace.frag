@@ -139,6 +139,14 @@ vec3 lightAlong(Path p, Meeting opaque)
 #ifndef WITH_PHOTONS // photons.frag has its own
 void writeLight(vec3 light, int status)
 {
+#ifdef WITH_GROUND
+    if (status == VT_PATH_BACKGROUND && u_output.w != 0) {
+        vec2 tangent = pictureTangent(gl_FragCoord.xy);
+        vec4 seen = groundOverPage(eyePosition(tangent), cameraDirection(tangent), light);
+        o_radiance = floatBitsToUint(vec4(seen.rgb * u_optics.z, seen.a));
+        return;
+    }
+#endif
     float share = status == VT_PATH_BACKGROUND && u_output.w != 0 ? 0.0 : 1.0; // the page shows behind the glass
     o_radiance = floatBitsToUint(vec4(light * u_optics.z * share, share));
 }

@@ -23,3 +23,13 @@ vec3 groundLight(vec3 position, vec3 direction, vec3 beyond)
     vec3 light = groundShare(position, direction) * mix(beyond, u_groundRadiance.rgb, u_groundRadiance.w);
     return mix(beyond, light, meetsGround(position, direction));
 }
+
+// What the ground does to a page behind it: its shadow covers the page, caustics are added. `light`: as groundLight gives
+// it. Colours times the share that they cover.
+vec4 groundOverPage(vec3 position, vec3 direction, vec3 light)
+{
+    float seen = meetsGround(position, direction);
+    vec3 share = groundShare(position, direction), more = light * max(1.0 - 1.0 / max(share, 1e-3), 0.0);
+    float shadow = 1.0 - min(min(share.r, min(share.g, share.b)), 1.0), glow = max(more.r, max(more.g, more.b));
+    return seen * mix(vec4(more, clamp(max(shadow, glow), 0.0, 1.0)), vec4(light, 1.0), u_groundRadiance.w);
+}

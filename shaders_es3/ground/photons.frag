@@ -50,7 +50,8 @@ void main()
     ivec2 texel = ivec2(index % 64, index / 64 + 64 * int(u_groundRays.x));
     vec3 light = uintBitsToFloat(readTexel(u_groundLights, texel, textureSize(u_groundLights, 0)).xyz);
     bool isPhoton = u_groundRays.y != 0.0;
-    vec2 place = gl_FragCoord.xy / u_groundRays.w;
+    // A lattice rather than a grid: light that spreads would show the grid's lines.
+    vec2 place = vec2(floor(gl_FragCoord.x) + fract(0.61803399 * float(pixel.y)), gl_FragCoord.y) / u_groundRays.w;
 
     vec3 ground = vec3(u_ground.y + place.x * u_ground.w, u_ground.x, u_ground.z + place.y * u_ground.w);
     ground -= VT_GROUND_BELOW * u_groundRays.z / light.y * light;

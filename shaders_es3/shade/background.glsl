@@ -25,3 +25,17 @@ vec3 behind(vec2 pixel)
     }
     return u_behind.rgb;
 }
+
+vec3 shownLight(vec3 light); // of display.glsl
+
+// As display.glsl has it, with what lies behind: light that is shown as the rest, or a colour that is shown as it is.
+vec4 displayed(vec3 light, float share)
+{
+    bool isLinear = u_host.z != 0;
+    vec3 back = behind(gl_FragCoord.xy - vec2(u_host.xy));
+    bool isLight = u_output.w == VT_BACKGROUND_BLURRED;
+    light = isLight ? mix(back, light, share) : light;
+    vec3 shown = isLinear ? light : shownLight(light);
+    shown = isLight ? shown : mix(back, shown, share);
+    return vec4(isLinear ? shown : linearToSrgb(shown), 1.0);
+}

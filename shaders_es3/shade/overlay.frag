@@ -32,7 +32,7 @@ void main()
         discard;
     }
     vec3 shown = light.rgb / light.a;
-    if ((u_host.z & 1) == 0) {
+    if (u_host.z == 0) {
 #ifdef WITH_TONE
         shown = toneMap(shown);
 #endif

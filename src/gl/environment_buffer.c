@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "gl/lighting_texture.h"
+#include "gl/picture_texture.h"
 #include "light/blur.h"
 #include "light/environment_levels.h"
 
@@ -81,16 +82,11 @@ vtResult vtEnvironmentBuffer_Set(vtEnvironmentBuffer* buffer, const vtGL* gl,
 {
     bool isImage = environment->kind == vt_environmentImage;
     int width = isImage ? environment->width : 1, height = isImage ? environment->height : 1;
-    GLint largest = 0;
-    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (width > largest || height > largest) {
-        return vtFail(
-            error, vt_errorContext,
-            "environment: %d x %d is more than this GPU's largest texture (%d); scale the picture down",
-            width, height, largest);
+    vtResult result = vtCheckTextureSize(gl, width, height, "environment", error);
+    if (result != vt_ok) {
+        return result;
     }
     vtTexture fresh = {0};
-    vtResult result = vt_ok;
     if (isImage) {
         result = uploadPicture(&fresh, gl, environment, error);
     } else {

@@ -27,7 +27,8 @@ vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGrou
     vtTexture_Bind(&buffer->map, gl, vt_samplerNone);
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, VT_GROUND_SIDE, VT_GROUND_SIDE, GL_RGBA, GL_FLOAT, texels);
     vtFree(texels);
-    const float place[4] = {map->height - origin.y, map->lowX - origin.x, map->lowZ - origin.z, 1.0f / map->size};
+    const float place[4] = {map->height - origin.y, map->lowX - origin.x, map->lowZ - origin.z,
+                            1.0f / map->size};
     const float radiance[4] = {map->radiance.x, map->radiance.y, map->radiance.z, map->matt ? 1.0f : 0.0f};
     memcpy(buffer->place, place, sizeof place);
     memcpy(buffer->radiance, radiance, sizeof radiance);

@@ -11,19 +11,28 @@ static int countLevels(int width, int height)
     return levels;
 }
 
-vtResult vtUploadPicture(vtTexture* texture, const vtGL* gl, const vtImage* picture, const char* what,
-                         vtError* error)
+vtResult vtCheckTextureSize(const vtGL* gl, int width, int height, const char* what, vtError* error)
 {
-    const int width = picture->width, height = picture->height;
     GLint largest = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (picture->pixels == NULL || width < 1 || height < 1) {
-        return vtFail(error, vt_errorArgument, "%s: the picture has no pixels; decode it first", what);
-    }
     if (width > largest || height > largest) {
         return vtFail(error, vt_errorContext,
                       "%s: %d x %d is more than this GPU's largest texture (%d); scale the picture down",
                       what, width, height, largest);
+    }
+    return vt_ok;
+}
+
+vtResult vtUploadPicture(vtTexture* texture, const vtGL* gl, const vtImage* picture, const char* what,
+                         vtError* error)
+{
+    const int width = picture->width, height = picture->height;
+    if (picture->pixels == NULL || width < 1 || height < 1) {
+        return vtFail(error, vt_errorArgument, "%s: the picture has no pixels; decode it first", what);
+    }
+    const vtResult result = vtCheckTextureSize(gl, width, height, what, error);
+    if (result != vt_ok) {
+        return result;
     }
     vtTexture_Destroy(texture, gl);
     *texture = (vtTexture){0, GL_TEXTURE_2D, GL_SRGB8_ALPHA8, width, height, 0, true};

@@ -120,7 +120,7 @@ vtResult vtBlurEnvironment(const vtEnvironment* environment, float degrees, vtEn
     vtDestroyEnvironment(&drawn);
     if (!made) {
         *blurred = (vtEnvironment){0};
-        return vtFail(error, vt_errorMemory, "background: out of memory to blur the environment");
+        return vtFail(error, vt_errorMemory, "environment: out of memory");
     }
     return vtSucceed(error);
 }

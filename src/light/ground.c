@@ -8,7 +8,8 @@
 // Departures:
 //  - The ground is one square map. A photon is spread over four texels by its place, then the map is blurred
 //    by a tent of three: together a smooth kernel three texels wide.
-//  - Rays stand on a grid, and their directions come in a fixed order that has all parts of a light in every
+//  - Rays stand on a lattice, rows of a grid shifted by the golden ratio, and their directions come in a
+//  fixed order that has all parts of a light in every
 //    8 x 8 of them (Bayer 1973), so that even light comes out even.
 //  - Glass and what is opaque cast the same shadow; all the light that glass lets through is photons'.
 //  - The sun of an environment is what hangs together with its brightest place and is at least a fifth as
@@ -88,8 +89,9 @@ vtResult vtValidateGround(const vtGround* ground, vtError* error)
         return result;
     }
     if (isinf(ground->height)) {
-        return vtFail(error, vt_errorArgument, "ground: its height is infinite; give a number, or NAN for the "
-                                               "scene's lowest point");
+        return vtFail(error, vt_errorArgument,
+                      "ground: its height is infinite; give a number, or NAN for the "
+                      "scene's lowest point");
     }
     const vtVec3 sun = ground->sunDirection;
     const bool none = sun.x == 0.0f && sun.y == 0.0f && sun.z == 0.0f;
@@ -140,7 +142,8 @@ static uint32_t spreadSun(Dome* dome, uint32_t from, float least)
     dome->isFound[from] = true;
     for (uint32_t i = 0; i < count; ++i) {
         const int column = (int)dome->waiting[i] % columns, row = (int)dome->waiting[i] / columns;
-        const int next[4][2] = {{column + 1, row}, {column + columns - 1, row}, {column, row + 1}, {column, row - 1}};
+        const int next[4][2] = {
+            {column + 1, row}, {column + columns - 1, row}, {column, row + 1}, {column, row - 1}};
         for (int k = 0; k < 4; ++k) {
             const int y = next[k][1];
             if (y < 0 || y >= dome->rows) {
@@ -211,7 +214,8 @@ bool vtFindSun(const vtEnvironment* environment, vtSun* sun)
 
 // --------------------------------------------------------------------------------------------- samples
 
-/// Two numbers from 0 to 1 for each sample: neighbours in the list are neighbours in the square (Morton 1966).
+/// Two numbers from 0 to 1 for each sample: neighbours in the list are neighbours in the square (Morton
+/// 1966).
 static void squareAt(int index, float* u, float* v)
 {
     int x = 0, y = 0;
@@ -323,7 +327,8 @@ static vtResult sampleLights(vtGroundPlan* plan, const vtEnvironment* environmen
     Sky* sky = vtAllocate(1, sizeof *sky);
     bool ready = sky != NULL;
     for (int light = 0; light < vt_groundLightCount; ++light) {
-        const size_t texels = (size_t)vtGroundSide((vtGroundLight)light) * (size_t)vtGroundSide((vtGroundLight)light);
+        const size_t texels =
+            (size_t)vtGroundSide((vtGroundLight)light) * (size_t)vtGroundSide((vtGroundLight)light);
         plan->sums[light] = vtAllocateZeroed(texels, 3 * sizeof(float));
         ready = ready && plan->sums[light] != NULL;
         for (int rays = 0; rays < vt_groundRaysCount; ++rays) {
@@ -440,7 +445,8 @@ vtGroundRay vtGroundPlan_Ray(const vtGroundPlan* plan, vtGroundLight light, vtGr
     const uint32_t index = sampleOf((uint32_t)x, (uint32_t)y, (uint32_t)across, seed);
     const vtLightSample* sample = &plan->samples[light][rays][index];
     const vtVec3 d = sample->direction;
-    const float u = ((float)x + 0.5f) / (float)across, v = ((float)y + 0.5f) / (float)across;
+    const float shift = vtFract(0.61803399f * (float)y);
+    const float u = ((float)x + shift) / (float)across, v = ((float)y + 0.5f) / (float)across;
     if (rays == vt_groundShade) { // from below, so that what lies on the ground is met
         const vtVec3 at = {plan->lowX + u * plan->size, plan->height, plan->lowZ + v * plan->size};
         return (vtGroundRay){vtMulAdd(at, -(float)VT_GROUND_BELOW * plan->reach / d.y, d), d, sample, 0.0f};
@@ -539,7 +545,8 @@ static void blurByTent(float* texels, int count, float* copy)
         for (int i = 0; i < count; ++i) {
             const int before = i > 0 ? i - 1 : 0, after = i < count - 1 ? i + 1 : i;
             for (int channel = 0; channel < 3; ++channel) {
-                from[3 * i * step + channel] = 0.25f * copy[3 * before + channel] + 0.5f * copy[3 * i + channel] +
+                from[3 * i * step + channel] = 0.25f * copy[3 * before + channel] +
+                                               0.5f * copy[3 * i + channel] +
                                                0.25f * copy[3 * after + channel];
             }
         }
@@ -579,7 +586,8 @@ static void compose(const vtGroundPlan* plan, vtGroundMap* map)
     const vtVec3 whole = vtAdd(plan->irradiance[vt_groundSky], plan->irradiance[vt_groundSun]);
     double sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < side * side; ++i) {
-        const float u = ((float)(i % side) + 0.5f) / (float)side, v = ((float)(i / side) + 0.5f) / (float)side;
+        const float u = ((float)(i % side) + 0.5f) / (float)side,
+                    v = ((float)(i / side) + 0.5f) / (float)side;
         const vtVec3 sky = readMap(plan->sums[vt_groundSky], vtGroundSide(vt_groundSky), u, v);
         const vtVec3 light = vtAdd(sky, vtMakeVec3(plan->sums[vt_groundSun] + 3 * i));
         sum[0] += (double)light.x;
@@ -618,7 +626,8 @@ vtResult vtGroundPlan_Finish(vtGroundPlan* plan, vtGroundMap* map, vtError* erro
     }
     vtFree(copy);
     for (int i = 0; i < side * side; ++i) {
-        const float u = ((float)(i % side) + 0.5f) / (float)side, v = ((float)(i / side) + 0.5f) / (float)side;
+        const float u = ((float)(i % side) + 0.5f) / (float)side,
+                    v = ((float)(i / side) + 0.5f) / (float)side;
         const float share = smoothEdge(u, v) * plan->ground.shadowIntensity;
         for (int channel = 0; channel < 3; ++channel) {
             map->light[3 * i + channel] = 1.0f + share * (map->light[3 * i + channel] - 1.0f);

@@ -1,5 +1,6 @@
-// What a scene does to the light on the ground below it: the light's samples, the rays to be followed, and the
-// map that comes of them. Who follows the rays is left open: a shader (passes/ground.h), or the reference.
+// What a scene does to the light on the ground below it: the light's samples, the rays to be followed, and
+// the map that comes of them. Who follows the rays is left open: a shader (passes/ground.h), or the
+// reference.
 #pragma once
 
 #include "shaders_es3/common/constants.h"
@@ -15,8 +16,8 @@ typedef enum vtGroundRays { vt_groundShade = 0, vt_groundPhotons, vt_groundRaysC
 /// One direction out of VT_GROUND_SAMPLES that stand for a light.
 typedef struct vtLightSample {
     vtVec3 direction; ///< towards it
-    vtVec3 color;     ///< irradiance, if all light came from here: for shade rays of the ground, for photons of
-                      ///< a surface that faces it
+    vtVec3 color; ///< irradiance, if all light came from here: for shade rays of the ground, for photons of
+                  ///< a surface that faces it
 } vtLightSample;
 
 /// A light that is as good as a disc, infinitely far away.
@@ -32,14 +33,14 @@ bool vtFindSun(const vtEnvironment* environment, vtSun* sun);
 
 typedef struct vtGroundPlan {
     vtGround ground;
-    float height;              ///< world y
-    float lowX, lowZ, size;    ///< of the square that the map covers, world
+    float height;               ///< world y
+    float lowX, lowZ, size;     ///< of the square that the map covers, world
     vtVec3 glassLow, glassHigh; ///< box that photons go through
-    float reach;               ///< the scene's diagonal: photons start farther away than anything
-    bool hasGlass;             ///< else no photons are wanted
-    vtVec3 irradiance[vt_groundLightCount];          ///< of the ground without a scene; 0: no such light
+    float reach;                ///< the scene's diagonal: photons start farther away than anything
+    bool hasGlass;              ///< else no photons are wanted
+    vtVec3 irradiance[vt_groundLightCount]; ///< of the ground without a scene; 0: no such light
     vtLightSample* samples[vt_groundLightCount][vt_groundRaysCount]; ///< VT_GROUND_SAMPLES each
-    float* sums[vt_groundLightCount];                ///< irradiance gathered, 3 a texel
+    float* sums[vt_groundLightCount];                                ///< irradiance gathered, 3 a texel
 } vtGroundPlan;
 
 /// Boxes of the scene and of its glass (low > high: none), world. *plan is to be destroyed. Fails with

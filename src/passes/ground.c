@@ -6,13 +6,18 @@
 #include "base/math.h"
 #include "base/memory.h"
 
-/// Rays along a side of their square: 2 x 2 shade rays a texel of a sun, 8 x 8 of the sky.
+/// Rays along a side of their square: 2 x 2 shade rays a texel of a sun, 8 x 8 of the sky. A page, which
+/// waits for them, takes a quarter of that.
+#ifdef __EMSCRIPTEN__
+enum { across = 512, targetCount = 3 };
+#else
 enum { across = 1024, targetCount = 3 };
+#endif
 
 bool vtGroundPass_IsStale(const vtGroundPass* pass, const vtFrame* frame)
 {
     return pass->isStale || pass->frame.ior != frame->ior || pass->frame.fresnel != frame->fresnel ||
-           pass->frame.maxEvents != frame->maxEvents || pass->frame.technique != frame->technique;
+           pass->frame.maxEvents < frame->maxEvents || pass->frame.technique != frame->technique;
 }
 
 void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs)
@@ -48,8 +53,8 @@ static vtResult makeRays(Rays* rays, const vtGL* gl, vtError* error)
             rays->words[4 * (size_t)i + 3] = 0;
         }
         vtTexture_Bind(&rays->lights, gl, vt_samplerNone);
-        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, (GLint)(list * listRows), 64, (GLsizei)listRows, GL_RGBA_INTEGER,
-                          GL_UNSIGNED_INT, rays->words);
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, (GLint)(list * listRows), 64, (GLsizei)listRows,
+                          GL_RGBA_INTEGER, GL_UNSIGNED_INT, rays->words);
     }
     vtAttachment colors[targetCount];
     for (int i = 0; i < targetCount; ++i) {
@@ -97,13 +102,13 @@ static void addPhotons(Rays* rays, vtGroundLight light, bool isOwn, vtVec3 origi
         if ((word[2] | (word[3] & 0xffffu)) == 0 || (isOwn && (word[3] & 0x20000u) == 0)) {
             continue;
         }
-        const vtVec3 share = vtScale((vtVec3){(float)(word[2] & 0xffffu), (float)(word[2] >> 16),
-                                              (float)(word[3] & 0xffffu)},
-                                     1.0f / 65535.0f);
+        const vtVec3 share =
+            vtScale((vtVec3){(float)(word[2] & 0xffffu), (float)(word[2] >> 16), (float)(word[3] & 0xffffu)},
+                    1.0f / 65535.0f);
         const vtGroundRay ray =
             vtGroundPlan_Ray(&rays->plan, light, vt_groundPhotons, i % across, i / across, across, 0);
-        vtGroundPlan_AddPhoton(&rays->plan, light, &ray, asFloat(word[0]) + origin.x, asFloat(word[1]) + origin.z,
-                               share, across);
+        vtGroundPlan_AddPhoton(&rays->plan, light, &ray, asFloat(word[0]) + origin.x,
+                               asFloat(word[1]) + origin.z, share, across);
     }
 }
 
@@ -112,7 +117,8 @@ static void drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec
 {
     const vtGroundPlan* plan = &rays->plan;
     const vtVec3 low = vtSub(plan->glassLow, origin), high = vtSub(plan->glassHigh, origin);
-    const float ground[4] = {plan->height - origin.y, plan->lowX - origin.x, plan->lowZ - origin.z, plan->size};
+    const float ground[4] = {plan->height - origin.y, plan->lowX - origin.x, plan->lowZ - origin.z,
+                             plan->size};
     const float numbers[4] = {(float)(2 * light + kind), (float)kind, plan->reach, (float)across};
     const float box[8] = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
     vtBindFramebuffer(gl, rays->framebuffer, across, across);
@@ -140,30 +146,21 @@ static bool isBlack(vtVec3 c)
     return c.x <= 0.0f && c.y <= 0.0f && c.z <= 0.0f;
 }
 
-static vtResult fillMap(vtGroundPass* pass, const vtGL* gl, Rays* rays, const vtSceneBuffer* scene,
-                        const vtEnvironmentBuffer* environment, vtError* error)
+static void followRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec3 origin)
 {
-    vtBindTraced(gl, scene, environment);
     for (int light = 0; light < vt_groundLightCount; ++light) {
         if (isBlack(rays->plan.irradiance[light])) {
             continue;
         }
-        drawRays(pass, gl, rays, scene->origin, (vtGroundLight)light, vt_groundShade);
+        drawRays(pass, gl, rays, origin, (vtGroundLight)light, vt_groundShade);
         if (rays->plan.hasGlass) {
-            drawRays(pass, gl, rays, scene->origin, (vtGroundLight)light, vt_groundPhotons);
+            drawRays(pass, gl, rays, origin, (vtGroundLight)light, vt_groundPhotons);
         }
     }
-    vtGroundMap map;
-    vtResult result = vtGroundPlan_Finish(&rays->plan, &map, error);
-    if (result == vt_ok) {
-        result = vtGroundBuffer_Set(&pass->buffer, gl, &map, scene->origin, error);
-        vtDestroyGroundMap(&map);
-    }
-    return result;
 }
 
-vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
-                           const vtEnvironmentBuffer* environment, const vtFrame* frame, vtError* error)
+vtResult vtGroundPass_MakeMap(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
+                              const vtEnvironmentBuffer* environment, vtGroundMap* map, vtError* error)
 {
     const vtVec3 whole[2] = {vtAdd(scene->low, scene->origin), vtAdd(scene->high, scene->origin)};
     // Where surfaces let a part of the light pass that is opaque, all of them are photons' matter.
@@ -172,14 +169,31 @@ vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuff
     const vtVec3 glass[2] = {vtAdd(scene->glassMin, scene->origin), vtAdd(scene->glassMax, scene->origin)};
     Rays rays = {.framebuffer = 0};
     vtResult result = vtPlanGround(&pass->ground, &environment->light, whole,
-                                   all ? whole : scene->glassCount > 0 ? glass : none, &rays.plan, error);
+                                   all                     ? whole
+                                   : scene->glassCount > 0 ? glass
+                                                           : none,
+                                   &rays.plan, error);
     if (result == vt_ok) {
         result = makeRays(&rays, gl, error);
     }
     if (result == vt_ok) {
-        result = fillMap(pass, gl, &rays, scene, environment, error);
+        vtBindTraced(gl, scene, environment);
+        followRays(pass, gl, &rays, scene->origin);
+        result = vtGroundPlan_Finish(&rays.plan, map, error);
     }
     destroyRays(&rays, gl);
+    return result;
+}
+
+vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
+                           const vtEnvironmentBuffer* environment, const vtFrame* frame, vtError* error)
+{
+    vtGroundMap map = {0};
+    vtResult result = vtGroundPass_MakeMap(pass, gl, scene, environment, &map, error);
+    if (result == vt_ok) {
+        result = vtGroundBuffer_Set(&pass->buffer, gl, &map, scene->origin, error);
+    }
+    vtDestroyGroundMap(&map);
     pass->isStale = result != vt_ok;
     pass->frame = *frame;
     pass->frame.viewMatrix = pass->frame.projectionMatrix = NULL; // the caller's

@@ -1,21 +1,22 @@
-// What a scene does to the light on the ground below it, found by rays of its lights on the GPU (photons.frag)
-// and added up on the CPU (light/ground.h), so that no device has to blend floats. Made when it is first asked
-// for and kept: it is the same from every eye.
+// What a scene does to the light on the ground below it, found by rays of its lights on the GPU
+// (photons.frag) and added up on the CPU (light/ground.h), so that no device has to blend floats. Made when
+// it is first asked for and kept: it is the same from every eye.
 #pragma once
 
 #include "passes/trace.h"
 
 typedef struct vtGroundPass {
     vtGround ground;
-    bool isThere;   ///< there is a ground
-    bool isStale;   ///< what is in `buffer` is of another ground, scene or light
-    vtFrame frame;  ///< that it was made for
+    bool isThere;  ///< there is a ground
+    bool isStale;  ///< what is in `buffer` is of another ground, scene or light
+    vtFrame frame; ///< that it was made for
     vtProgram program;
     vtTraceVariant variant; ///< of the program
     vtGroundBuffer buffer;
 } vtGroundPass;
 
-/// Does the map have to be made anew for the frame?
+/// Does the map have to be made anew for the frame? One of more events stays: a page that draws with fewer
+/// while things move would make it again and again.
 bool vtGroundPass_IsStale(const vtGroundPass* pass, const vtFrame* frame);
 void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs);
 
@@ -23,4 +24,7 @@ void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant varia
 /// bound. Fails as vtPlanGround does.
 vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
                            const vtEnvironmentBuffer* environment, const vtFrame* frame, vtError* error);
+/// The map by itself, which vtGroundPass_Draw uploads.
+vtResult vtGroundPass_MakeMap(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
+                              const vtEnvironmentBuffer* environment, vtGroundMap* map, vtError* error);
 void vtGroundPass_Destroy(vtGroundPass* pass, const vtGL* gl);

@@ -95,7 +95,7 @@ void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, const vtCa
         .scene = {(int)scene->glassCount, (int)scene->objectCount, !vtFrame_IsStrict(frame),
                   row->findsOpaque && !vtVariant_IsOrdered(vtFrame_Variant(frame, true))},
         .output = {frame->output, frame->layer, environment, frame->background},
-        .host = {frame->x, frame->y, frame->linear + 2 * (frame->toneMapping != vt_toneMappingNone),
+        .host = {frame->x, frame->y, frame->linear,
                  (frame->hostColor != 0) + 2 * (frame->hostDepth != 0) + 4 * frame->hostLinear},
     };
     setCamera(uniforms, camera);

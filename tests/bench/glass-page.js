@@ -92,7 +92,7 @@ class VitrineContestant {
   #setGlass(reflects) {
     const { technique, canReflect, shared: { ior } } = this;
     const fresnel = reflects && canReflect ? 'on' : 'off'; // off: strict paths, whose directions can be compared
-    this.#must(this.viewer.setGlass({ technique, ior, fresnel, preset: 'medium', output: 'picture', layer: 0, exposure: 0, 'tone-mapping': 'none', background: 'environment', samples: 1, lessened: false }));
+    this.#must(this.viewer.setGlass({ technique, ior, fresnel, preset: 'medium', output: 'picture', layer: 0, exposure: 0, 'tone-mapping': 'none', background: { kind: 0, color: [0, 0, 0] }, samples: 1, lessened: false }));
   }
 
   /** reflects: with Fresnel reflection, the default; what: 'picture' or 'directions'. */

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "render/renderer.h"
-#include "technique/background.h"
 #include "technique/settings.h"
 #include "technique/technique.h"
 
@@ -101,27 +100,14 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_BackgroundPicture(vtViewer* viewer, ui
     return sentence(viewer, result);
 }
 
-/// One that the browser has not.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_BackgroundOpen(vtViewer* viewer, uint8_t* bytes, size_t size,
-                                                         const char* name)
-{
-    (void)size;
-    free(bytes);
-    vtFail(&viewer->error, vt_errorFormat,
-           "background '%.300s' is no picture that this browser can decode; save it as PNG, JPEG or WebP",
-           name);
-    return viewer->error.message;
-}
-
-/// What is behind the scene, as vtFrame_SetBackground has it, for vtViewer_SetGlass; until its picture has
+/// What is behind the scene, for vtViewer_SetGlass: a vtBackground, and the colour; until the picture has
 /// come, the page.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetBackground(vtViewer* viewer, const char* text)
+EMSCRIPTEN_KEEPALIVE void vtViewer_SetBackground(vtViewer* viewer, int background, float red, float green,
+                                                 float blue)
 {
-    const vtResult result = vtFrame_SetBackground(&viewer->wanted, text, &viewer->error);
-    if (viewer->wanted.background == vt_backgroundPicture && viewer->renderer->background.name == 0) {
-        viewer->wanted.background = vt_backgroundTransparent;
-    }
-    return sentence(viewer, result);
+    const bool isLate = background == vt_backgroundPicture && viewer->renderer->background.name == 0;
+    viewer->wanted.background = isLate ? vt_backgroundTransparent : (vtBackground)background;
+    viewer->wanted.backgroundColor = (vtVec3){red, green, blue};
 }
 
 /// Takes a frame over if it is valid and its technique has what it needs.
@@ -142,6 +128,22 @@ static vtResult showFrame(vtViewer* viewer, const vtFrame* frame)
 EMSCRIPTEN_KEEPALIVE void vtViewer_Set(vtViewer* viewer, const char* name, double value)
 {
     vtSetting_Set(vtFindSetting(name), &viewer->wanted, value);
+}
+
+/// A ground at the scene's lowest point, or none; shadows from 0 to 1.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGround(vtViewer* viewer, bool isThere, float intensity,
+                                                    float softness)
+{
+    const vtGroundPass* now = &viewer->renderer->ground;
+    if (now->isThere == isThere &&
+        (!isThere || (now->ground.shadowIntensity == intensity && now->ground.shadowSoftness == softness))) {
+        return NULL; // what falls on it is kept
+    }
+    vtGround ground = vtDefaultGround();
+    ground.shadowIntensity = intensity;
+    ground.shadowSoftness = softness;
+    viewer->changed = true;
+    return sentence(viewer, vtRenderer_SetGround(viewer->renderer, isThere ? &ground : NULL, &viewer->error));
 }
 
 /// Draws with what vtViewer_Set was told and a technique by its id, empty: the scene decides. A layer beyond

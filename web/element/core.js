@@ -147,15 +147,16 @@ export class Viewer {
   }
 
   /**
-   * Settings by their names in the core's table (src/technique/settings.c), a word by its attribute's list; null: as the preset or each object says; technique null: as the scene has it; background as the attribute has it.
+   * Settings by their names in the core's table (src/technique/settings.c), a word by its attribute's list; null: as the preset or each object says; technique null: as the scene has it; background as readBackground.
    * @returns {string} a sentence, or ''
    */
-  setGlass({ technique, lessened, background, ...settings }) {
+  setGlass({ technique, lessened, ground = [0, 0, 0], background: { kind, color } = { kind: 1, color: [0, 0, 0] }, ...settings }) {
     for (const [name, value] of Object.entries(settings)) {
       const words = attributes.find(({ attribute }) => attribute === name)?.values;
       this.call('Set', name, words ? words.indexOf(value) : Number(value));
     }
-    return this.attempt('SetBackground', background) || this.attempt('SetGlass', technique ?? '', Number(lessened));
+    this.call('SetBackground', kind, ...color);
+    return this.attempt('SetGround', ...ground) || this.attempt('SetGlass', technique ?? '', Number(lessened));
   }
 
   /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */

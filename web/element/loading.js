@@ -45,15 +45,18 @@ export function wishOf({ src, objects, relief, walls, variantName, ...more }) {
   return { url: url + looks, walls, variantName, parts };
 }
 
-/** Does a background name a picture's file? As vtFrame_SetBackground has it. */
-export const isPictureBehind = (text) => /[./]/.test(text) && !/^(#|blurred:)/.test(text);
-
-/** A sentence where a background is none that vtFrame_SetBackground knows, or ''. */
-export function backgroundProblem(text) {
-  const [, degrees] = /^blurred:(.*)$/.exec(text) ?? [];
-  if (degrees !== undefined && !(Number(degrees) >= 1 && Number(degrees) <= 90)) return `background is '${text}'; its degrees must be from 1 to 90`;
-  if (degrees !== undefined || isPictureBehind(text) || /^(|environment|transparent|blurred|#([\da-fA-F]{3}){1,2})$/.test(text)) return '';
-  return `background is '${text}'; it must be environment, transparent, blurred, blurred:DEGREES, #rrggbb or a URL`;
+/**
+ * What a background says, as vtFrame_SetBackground in the core reads it: a vtBackground, a colour, degrees; null: nothing that can be.
+ * @param {string} text @returns {{kind: number, color: number[], blur: number}|null}
+ */
+export function readBackground(text) {
+  const value = { kind: ['environment', 'transparent'].indexOf(text), color: [0, 0, 0], blur: 6 };
+  const [, blur] = /^blurred:?(.*)$/.exec(text) ?? [];
+  const digits = /^#([\da-fA-F]{3}){1,2}$/.test(text) ? text.slice(1).replace(/^(.)(.)(.)$/, '$1$1$2$2$3$3') : '';
+  if (text === 'blurred' || (Number(blur) >= 1 && Number(blur) <= 90)) Object.assign(value, { kind: 3, blur: Number(blur) || 6 });
+  else if (digits) Object.assign(value, { kind: 2, color: digits.match(/../g).map((pair) => parseInt(pair, 16) / 255) });
+  else if (/[./]/.test(text) && !/^(#|blurred)/.test(text)) value.kind = 4; // a URL
+  return value.kind < 0 ? null : value;
 }
 
 /** The built-in of that name, or null. @returns {Source|null} */

@@ -237,7 +237,8 @@ export class Stage {
       return;
     }
     if (kind === 'background') {
-      this.#shown(kind, source, isNew, viewer.attemptFile('BackgroundOpen', source));
+      const problem = source.contents instanceof ImageBitmap ? viewer.attemptFile('BackgroundOpen', source) : `${source.name}: no picture that this browser can decode; save it as PNG, JPEG or WebP`;
+      this.#shown(kind, source, isNew, problem);
       return;
     }
     const problem = viewer.begin(source.parts, source);

@@ -4,7 +4,7 @@ import { adoptProperties, attributes, defineProperties, readAttributes } from '.
 import { listenToControls } from './controls.js';
 import { coreStatistics, loadCore } from './core.js';
 import { Loader } from './loader.js';
-import { backgroundProblem, isPictureBehind, wishOf } from './loading.js';
+import { readBackground, wishOf } from './loading.js';
 import { parseFieldOfView, parseOrbit, parseTarget } from './orbit.js';
 import { Stage } from './stage.js';
 import { createShadow } from './template.js';
@@ -232,15 +232,17 @@ export class VitrineViewer extends HTMLElement {
     const { values, problems } = readAttributes(this);
     const isFirst = this.#values.src === undefined;
     this.#values = values;
-    const behind = backgroundProblem(values.background);
-    if (behind) {
-      problems.push(behind);
+    const { background } = values;
+    if (background && !readBackground(background)) {
+      problems.push(`background is '${background}'; it must be environment, transparent, blurred, blurred:DEGREES (1 to 90), #rrggbb or a URL`);
       values.background = '';
     }
     const stage = this.#stage;
+    const behind = readBackground(this.#background);
     const { technique, ior, roughness, dispersion, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, toneMapping, samples } = values;
     stage.cameraIndex = values.cameraIndex;
-    stage.glass = { technique, ior, roughness: roughness ?? -1, dispersion: dispersion ?? -1, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'tone-mapping': toneMapping, background: this.#background };
+    const shadow = values.shadowIntensity ?? Number(values.ground);
+    stage.glass = { ground: [Number(values.ground || shadow > 0), shadow, values.shadowSoftness], technique, ior, roughness: roughness ?? -1, dispersion: dispersion ?? -1, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'tone-mapping': toneMapping, background: behind, 'background-blur': behind.blur };
     stage.quality.mode = values.quality;
 
     this.#access.describe(values);
@@ -302,7 +304,7 @@ export class VitrineViewer extends HTMLElement {
     if (scene.model?.url !== model.url) this.#isLoaded = false;
     for (const cause of ['model', 'environment', 'background', 'pictures']) this.#say(cause, '');
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
-    if (!(await this.#loader.load({ environment: { url: environment }, background: { url: isPictureBehind(this.#background) ? this.#background : '' }, model }, scene))) return;
+    if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, scene))) return;
     try {
       this.#stage.core = await core;
     } catch (reason) {

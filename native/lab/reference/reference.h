@@ -27,6 +27,7 @@ typedef struct vtReferenceDef {
     /// what refracts is followed; a path of less than 0.002 of the light by chance, with the light of those
     /// that are not. Concerns the radiance only.
     bool fresnel;
+    const vtGround* ground; ///< that the scene stands on; NULL: none. Concerns the radiance only
     /// The radiance only, as fast as it goes: directions, events, states and reflections stay NULL. Needs an
     /// environment.
     bool onlyPicture;

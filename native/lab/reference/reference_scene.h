@@ -5,6 +5,7 @@
 
 #include "base/math.h"
 #include "lab/reference/reference.h"
+#include "light/ground.h"
 #include "light/look.h"
 #include "scene/media.h"
 #include "scene/objects.h"
@@ -145,6 +146,11 @@ void vtDestroyPathList(vtPathList* list);
 /// Follows paths from the eye, all that the list holds, until each has ended; those that branch off are added
 /// to it. False where memory is short.
 bool vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtPathList* list);
+
+/// What falls on a ground below the scene: photons that follow the rules. Fails as vtPlanGround does.
+vtResult vtReference_LightGround(const vtReference* reference, const vtPathRules* rules,
+                                 const vtGround* ground, const vtEnvironment* environment, int threads,
+                                 vtGroundMap* map, vtError* error);
 
 /// A path that starts at the eye, which lies within these objects.
 static inline vtReferencePath vtMakePath(vtVec3 origin, vtVec3 direction, vtMedia within, uint32_t source)

@@ -31,6 +31,7 @@ typedef struct Job {
     vtIllumination illumination;
     vtSpectrum* spectrum; ///< NULL: glass does not disperse, or there is one sample only
     bool isRough;         ///< something is, or glass disperses
+    vtGroundMap ground; ///< its light NULL: there is none
     int tileColumns, tileCount;
     atomic_int nextTile;
     atomic_bool failed; ///< memory is short
@@ -143,7 +144,10 @@ static vtVec3 lightOf(const Job* job, const vtReferencePath* path)
 {
     vtVec3 light = path->light;
     if (path->state != VT_PATH_OPAQUE) { // all that comes from there is in it
-        const vtVec3 end = vtEnvironment_Sample(job->def->environment, path->direction);
+        vtVec3 end = vtEnvironment_Sample(job->def->environment, path->direction);
+        if (job->ground.light != NULL) {
+            end = vtGroundMap_Light(&job->ground, path->origin, path->direction, end);
+        }
         light =
             vtAdd(light, (vtVec3){end.x * path->weight.x, end.y * path->weight.y, end.z * path->weight.z});
     }
@@ -261,7 +265,8 @@ static vtResult checkDef(const vtReference* reference, const vtReferenceDef* def
         return vtFail(error, vt_errorArgument, "threads is %d; it must be 0 to %d", def->threads,
                       VT_MAX_THREADS);
     }
-    return vtValidateFrame(def->frame, error);
+    const vtResult result = def->ground != NULL ? vtValidateGround(def->ground, error) : vt_ok;
+    return result == vt_ok ? vtValidateFrame(def->frame, error) : result;
 }
 
 static vtResult createImage(const vtReferenceDef* def, vtReferenceImage* image, vtError* error)
@@ -365,9 +370,20 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
         vtMakeSpectrum(job.spectrum);
         job.rules.spectrum = job.spectrum;
     }
-    runJob(&job);
+    if (def->ground != NULL && def->environment != NULL) {
+        result = vtReference_LightGround(reference, &job.rules, def->ground, def->environment, def->threads,
+                                         &job.ground, error);
+    }
+    if (result == vt_ok) {
+        runJob(&job);
+    }
     free(job.spectrum);
     vtDestroyLighting(&lighting);
+    vtDestroyGroundMap(&job.ground);
+    if (result != vt_ok) {
+        vtDestroyReferenceImage(image);
+        return result;
+    }
     if (atomic_load(&job.failed)) {
         vtDestroyReferenceImage(image);
         return vtFail(error, vt_errorMemory, "reference: out of memory for paths");

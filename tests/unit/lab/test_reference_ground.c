@@ -1,0 +1,121 @@
+// The ground by the renderer against the reference's, which follows all parts of every photon on the CPU.
+#include "gl/state.h"
+#include "lab/metrics/metrics_image.h"
+#include "lab/reference/reference_scene.h"
+#include "render/renderer.h"
+#include "rendering.h"
+
+static vtGround sunnyGround(void)
+{
+    vtGround ground = vtDefaultGround();
+    ground.matt = true;
+    ground.color = (vtVec3){0.2f, 0.18f, 0.16f};
+    ground.sunDirection = (vtVec3){1.0f, 1.2f, -0.8f};
+    ground.sunSize = 1.0f;
+    return ground;
+}
+
+static vtFrame viewFromAbove(void)
+{
+    vtFrame frame = smallFrame(vt_techniqueExact);
+    frame.ior = 0.0f;
+    frame.fresnel = true;
+    frame.view = (vtView){{2.6f, 2.4f, 3.4f}, {0.0f, -0.3f, 0.0f}, 50.0f};
+    return frame;
+}
+
+/// What the scene changes of the light on the whole map, both ways.
+static double changeOf(const vtGroundMap* map)
+{
+    double sum = 0.0;
+    for (int i = 0; i < 3 * VT_GROUND_SIDE * VT_GROUND_SIDE; ++i) {
+        sum += fabs((double)map->light[i] - 1.0);
+    }
+    return sum / (3.0 * VT_GROUND_SIDE * VT_GROUND_SIDE);
+}
+
+static void compareMaps(Fixture* fixture, const vtReference* reference, const vtFrame* frame,
+                        const vtGround* ground, const vtEnvironment* environment)
+{
+    vtRenderer* renderer = fixture->renderer;
+    vtGroundMap drawn, traced;
+    vtError error;
+    vtTakeState(&renderer->gl);
+    renderer->gl.BindVertexArray(renderer->emptyVertexArray);
+    assert_ok(vtGroundPass_MakeMap(&renderer->ground, &renderer->gl, &renderer->scene, &renderer->environment,
+                                   &drawn, &error),
+              error);
+    const vtPathRules rules = {0.0f, vtResolveFrame(frame).maxEvents, true, NULL, 1.0f};
+    assert_ok(vtReference_LightGround(reference, &rules, ground, environment, 0, &traced, &error), error);
+    const double all = (double)(drawn.gathered.x / traced.gathered.x);
+    print_message("light on the map %.4f of the reference's, what is changed %.4f of %.4f\n", all,
+                  changeOf(&drawn), changeOf(&traced));
+    assert_true(fabs(all - 1.0) < 0.03);
+    assert_true(fabs(changeOf(&drawn) / changeOf(&traced) - 1.0) < 0.1);
+    vtDestroyGroundMap(&drawn);
+    vtDestroyGroundMap(&traced);
+}
+
+static void comparePictures(Fixture* fixture, const vtReference* reference, const vtFrame* frame,
+                            const vtGround* ground, const vtEnvironment* environment)
+{
+    const vtReferenceDef def = {.frame = frame,
+                                .environment = environment,
+                                .ground = ground,
+                                .fresnel = true,
+                                .onlyPicture = true};
+    vtReferenceImage image;
+    vtError error;
+    assert_ok(vtReference_Trace(reference, &def, &image, &error), error);
+    uint8_t* traced = malloc((size_t)4 * side * side);
+    assert_non_null(traced);
+    vtReference_ToSrgb(&image, traced);
+    vtPictureError difference;
+    assert_ok(vtComparePictureBytes(fixture->pixels, traced, 4, side, side, &difference, NULL, &error), error);
+    print_message("mean FLIP %.4f\n", difference.flip);
+    assert_true(difference.flip <= 0.06);
+    free(traced);
+    vtDestroyReferenceImage(&image);
+}
+
+static void checkShape(Fixture* fixture, const char* shape)
+{
+    const vtGround ground = sunnyGround();
+    const vtFrame frame = viewFromAbove();
+    vtEnvironment studio;
+    vtMesh mesh;
+    vtBorrowedMesh borrowed;
+    vtReference* reference;
+    vtError error;
+    assert_ok(vtCreateEnvironment("studio", &studio, &error), error);
+    assert_ok(vtCreateShape(shape, &mesh, &error), error);
+    const vtScene* scene = vtBorrowMesh(&mesh, &borrowed);
+    assert_ok(vtRenderer_SetScene(fixture->renderer, scene, &error), error);
+    assert_ok(vtRenderer_SetEnvironment(fixture->renderer, &studio, &error), error);
+    assert_ok(vtRenderer_SetGround(fixture->renderer, &ground, &error), error);
+    assert_ok(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error), error);
+    assert_ok(vtCreateReference(scene, &reference, &error), error);
+    compareMaps(fixture, reference, &frame, &ground, &studio);
+    comparePictures(fixture, reference, &frame, &ground, &studio);
+    vtDestroyReference(reference);
+    vtDestroyMesh(&mesh);
+}
+
+static void theGroundBelowABall(void** state)
+{
+    checkShape(*state, "sphere");
+}
+
+static void theGroundBelowAGoblet(void** state)
+{
+    checkShape(*state, "goblet");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(theGroundBelowABall, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(theGroundBelowAGoblet, setUp, tearDown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
