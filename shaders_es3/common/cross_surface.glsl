@@ -29,6 +29,9 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
 {
     vec4 before = glassOf(topOf(media));
     p.transmittance *= exp(-distance * before.yzw);
+#ifdef WITH_ROUGH
+    p.lobe = lobeAfter(p.lobe, distance);
+#endif
     // The surface says on which side of it the path is.
     uint id = uint(hit.object + 1);
     bool leaving = dot(hit.flatNormal, p.direction) > 0.0;
@@ -46,8 +49,20 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
     }
     vec3 N = leaving ? -hit.normal : hit.normal, G = leaving ? -hit.flatNormal : hit.flatNormal;
     vec3 I = p.direction;
+#ifdef WITH_ROUGH
+    float roughness = roughnessOf(hit.object), alpha = roughness * roughness;
+    bool isFacet = u_sample.y != 0 && alpha > 0.0;
+    vec3 smoothN = dot(N, I) < 0.0 ? N : G;
+    N = isFacet ? facetNormal(smoothN, I, alpha, chanceOfFacet(p.number, p.events)) : N;
+#endif
     bool reflected;
     vec3 T = meetInterface(I, N, G, eta, reflected);
+#ifdef WITH_ROUGH
+    alpha = isFacet ? 0.0 : alpha;
+    float c = clamp(-dot(N, I), 0.0, 1.0), curvature = N == G ? 0.0 : 0.5 * (leaving ? -1.0 : 1.0) * (hit.turn[0].x + hit.turn[1].y + hit.turn[2].z);
+    vec3 lobe = p.lobe, lobePassed = lobeThrough(lobe, c, eta, curvature, alpha), lobeTurned = lobeMirrored(lobe, c, curvature, alpha);
+    p.lobe = reflected ? lobeTurned : lobePassed;
+#endif
     p.direction = T;
     p.reflected = p.reflected || reflected;
     ++p.events;
@@ -67,6 +82,9 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
     if (u_scene.z != 0) {
         float F = fresnel(-dot(N, I), eta);
         vec3 R = reflect(I, N);
+#ifdef WITH_ROUGH
+        R = isFacet ? R - 2.0 * min(dot(R, G), 0.0) * G : R;
+#endif
         R = dot(R, G) > 0.0 ? R : reflect(I, G);
         // What the first surface reflects towards the eye is kept apart: it is never too little to be followed. (Of
         // techniques with a shade pass, shade.frag sees to it.) Later the path follows the stronger part.
@@ -75,6 +93,9 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
         p.firstPosition = isFirst ? p.position : p.firstPosition;
         p.firstDirection = isFirst ? R : p.firstDirection;
         p.firstShare = isFirst ? FIRST_SHARE(F * strongest(p.transmittance)) : p.firstShare;
+#ifdef WITH_ROUGH
+        p.firstLobe = isFirst ? lobeTurned : p.firstLobe;
+#endif
 #endif
         bool isKept = false;
         if (!isFirst) {
@@ -87,6 +108,10 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
         p.firstFootprint.place = isFirst ? p.footprint.place : p.firstFootprint.place;
         p.firstFootprint.direction = isFirst ? mirrored : p.firstFootprint.direction;
         p.footprint.direction = isMirrored ? mirrored : passed;
+#endif
+#ifdef WITH_ROUGH
+        p.asideLobe = isKept ? (isMirrored ? lobePassed : lobeTurned) : p.asideLobe;
+        p.lobe = isMirrored ? lobeTurned : lobePassed;
 #endif
         p.direction = isMirrored ? R : T;
         p.transmittance *= isMirrored ? F : 1.0 - F;

@@ -19,6 +19,8 @@ layout(std140) uniform Frame
                      // 1: the host gives colours, 2: depths, 4: its colours are linear
     vec4 u_clip;     // third row of the host's projection: element of depth, constant; depth from which on there is
                      // nothing; 1: it is orthographic, and tangents are world units
+    ivec4 u_sample; // its number; 1: chance chooses what its paths follow (trace.frag); what it weighs in
+                    // the mean; what all weigh more than their number
 };
 
 // A texel by its column and row. Software renderers take half as long for it as for texelFetch. For textures of one

@@ -12,6 +12,10 @@ struct Path {
     vec3 transmittance;
     int events;
     bool reflected; // total internal reflection took part
+#ifdef WITH_ROUGH
+    vec3 lobe;  // rough.glsl
+    int number; // of the paths of a pixel
+#endif
 #ifdef WITH_FOOTPRINT
     Footprint footprint;
 #endif
@@ -20,6 +24,10 @@ struct Path {
     // the way of one part of it.
     vec3 aside, asidePosition, asideDirection;
     Media asideMedia;
+#ifdef WITH_ROUGH
+    vec3 asideLobe;
+#endif
+    int asideEvents;
     float choice; // 0 to 1: decides which part; below 0: the strongest
 #ifdef WITH_FOOTPRINT
     Footprint asideFootprint;
@@ -29,6 +37,9 @@ struct Path {
     // What the first surface reflects towards the eye; share 0: nothing.
     vec3 firstPosition, firstDirection;
     FIRST_SHARE firstShare;
+#ifdef WITH_ROUGH
+    vec3 firstLobe;
+#endif
 #ifdef WITH_FOOTPRINT
     Footprint firstFootprint;
 #endif
@@ -38,6 +49,13 @@ struct Path {
 #endif
 };
 
+#ifdef WITH_ROUGH
+#define NO_LOBE , vec3(0.0)
+#define NO_NUMBER , 0
+#else
+#define NO_LOBE
+#define NO_NUMBER
+#endif
 #ifdef WITH_FOOTPRINT
 #define AND_FOOTPRINT , footprint
 Path startPath(vec3 position, vec3 direction, Footprint footprint)
@@ -46,12 +64,12 @@ Path startPath(vec3 position, vec3 direction, Footprint footprint)
 Path startPath(vec3 position, vec3 direction)
 #endif
 {
-    return Path(position, direction, vec3(1.0), 0, false AND_FOOTPRINT
+    return Path(position, direction, vec3(1.0), 0, false NO_LOBE NO_NUMBER AND_FOOTPRINT
 #ifndef STRICT
-                , vec3(0.0), position, direction, AIR, u_eye.w AND_FOOTPRINT
+                , vec3(0.0), position, direction, AIR NO_LOBE, 0, u_eye.w AND_FOOTPRINT
 #endif
 #ifdef KEEPS_FIRST
-                , position, direction, FIRST_SHARE(0.0) AND_FOOTPRINT
+                , position, direction, FIRST_SHARE(0.0) NO_LOBE AND_FOOTPRINT
 #endif
 #ifdef WITH_LOOKS
                 , vec3(0.0)
@@ -77,6 +95,7 @@ bool setLightAside(inout Path p, vec3 direction, vec3 light, Media media)
     p.asidePosition = isKept ? p.position : p.asidePosition;
     p.asideDirection = isKept ? direction : p.asideDirection;
     p.asideMedia = isKept ? media : p.asideMedia;
+    p.asideEvents = isKept ? p.events : p.asideEvents;
     p.aside += light;
     return isKept;
 }

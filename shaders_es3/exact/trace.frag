@@ -18,6 +18,11 @@ struct End {
     Meeting meeting;
 };
 
+// Light that left a path is followed always where its share is at least this; less of it with a chance, where chance
+// chooses.
+const float SURE_BRANCH = 0.05;
+const int MOST_PATHS = 64; // of a pixel, where chance chooses: they end long before
+
 const Meeting NO_MEETING = Meeting(NOWHERE, VT_NO_TRIANGLE, vec2(0.0), -1, -1);
 
 // isFresh: the path begins at the eye. isDirect: glass does not count, only what is opaque.
@@ -110,7 +115,11 @@ vec3 lightAlong(Path p, Meeting opaque)
 #ifdef WITH_FOOTPRINT
     width = footprintWidth(p.footprint.direction);
 #endif
+#ifdef WITH_ROUGH
+    vec3 light = p.lobe.z > 0.0 ? specularLight(p.direction, lobeRoughness(p.lobe), width) : surroundings(p.position, p.direction, width);
+#else
     vec3 light = surroundings(p.position, p.direction, width); // a lost path sees it, too
+#endif
 #if defined(WITH_OPAQUE) && !defined(WITH_LOOKS)
     if (opaque.triangle != VT_NO_TRIANGLE) {
 #if defined(ONLY_HEIGHTS)
@@ -171,11 +180,15 @@ void main()
     vec3 light = vec3(0.0);
     uvec4 path = uvec4(0u);
     int left = u_branches, status = VT_PATH_LOST;
-    bool isDirect = false;
+#ifdef WITH_ROUGH
+    vec3 firstLobe = vec3(0.0);
+#endif
+    bool isDirect = false, byChance = u_sample.y != 0;
+    p.choice = byChance ? chanceOf(0) : p.choice;
     // The pixel's own path, the light that left it and that in turn, what left the last of them, and the first
     // surface's reflection; the last two are not followed through glass.
     vec3 firstPosition = vec3(0.0), firstDirection = vec3(1.0, 0.0, 0.0), firstLight = vec3(0.0);
-    for (int i = 0; i < VT_MAX_BRANCHES + 3; ++i) {
+    for (int i = 0; i < MOST_PATHS; ++i) {
         bool isOwn = i == 0;
         End end = End(VT_PATH_EXITED, NO_MEETING);
 #ifndef WITH_OPAQUE // a direct ray meets nothing
@@ -198,21 +211,32 @@ void main()
             firstFootprint = p.firstFootprint;
 #endif
             firstLight = vec3(p.firstShare);
+#ifdef WITH_ROUGH
+            firstLobe = p.firstLobe;
+#endif
         }
-        bool isAside = strongest(p.aside) > 0.0;
-        vec3 next = isAside ? p.aside : firstLight;
-        isDirect = !isAside || left == 0 || strongest(next) < VT_LEAST_BRANCH;
+        float share = strongest(p.aside), chance = byChance ? min(share / SURE_BRANCH, 1.0) : 1.0;
+        bool isAside = share > 0.0 && p.choice < chance; // without chance the choice is below 0
+        vec3 next = isAside ? p.aside / chance : firstLight;
+        isDirect = !byChance && (!isAside || left == 0 || strongest(next) < VT_LEAST_BRANCH);
         --left;
+        int events = byChance && isAside ? p.asideEvents : 1;
         media = p.asideMedia;
+#ifdef WITH_ROUGH
+        vec3 lobe = isAside ? p.asideLobe : firstLobe;
+#endif
 #ifdef WITH_FOOTPRINT
         footprint.place = isAside ? p.asideFootprint.place : firstFootprint.place;
         footprint.direction = isAside ? p.asideFootprint.direction : firstFootprint.direction;
 #endif
         p = startPath(isAside ? p.asidePosition : firstPosition, isAside ? p.asideDirection : firstDirection AND_FOOTPRINT);
         p.transmittance = next;
-        // Another number for every sample, that does not hang together with the path's own: 43 steps of the golden ratio.
-        p.choice = u_eye.w < 0.0 ? u_eye.w : fract(43.0 * u_eye.w);
-        p.events = 1; // it met the surface that it left the path at
+#ifdef WITH_ROUGH
+        p.lobe = lobe;
+        p.number = i + 1;
+#endif
+        p.choice = byChance ? chanceOf(i + 1) : -1.0;
+        p.events = events; // it met the surface that it left the path at
         firstLight = isAside ? firstLight : vec3(0.0);
         if (strongest(next) <= 0.0) { // asked here: software renderers run a loop asked at its beginning once more
             break;

@@ -1,5 +1,5 @@
 // Adds a sample to the sum of those before: red, green and blue where it covers the pixel, and that it does.
-// Only the mean of all is cut to what the display can show: what samples find by chance is seldom and bright.
+// No sample is cut to what the display can show: what chance finds seldom is bright, and the mean would lack it.
 uniform usampler2D u_radiance;
 uniform usampler2D u_sum; // bits of floats
 
@@ -9,5 +9,5 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 light = uintBitsToFloat(readTexel(u_radiance, pixel, u_size.xy));
-    o_sum = floatBitsToUint(uintBitsToFloat(readTexel(u_sum, pixel, u_size.xy)) + light);
+    o_sum = floatBitsToUint(uintBitsToFloat(readTexel(u_sum, pixel, u_size.xy)) + float(u_sample.z) * light);
 }

@@ -4,5 +4,5 @@ uniform usampler2D u_sum;
 void main()
 {
     vec4 sum = uintBitsToFloat(readTexel(u_sum, ivec2(gl_FragCoord.xy) - u_host.xy, u_size.xy));
-    o_color = SHOWN(displayed(sum.rgb / (sum.a > 0.0 ? sum.a : 1.0), sum.a / u_optics.w));
+    o_color = SHOWN(displayed(sum.rgb / (sum.a > 0.0 ? sum.a : 1.0), sum.a / (u_optics.w + float(u_sample.w))));
 }

@@ -1,6 +1,6 @@
 // Light that comes to a point of the world from beyond the scene: from the host's picture, where it shows it, else from
 // the environment.
-#ifndef WITH_OPAQUE // lighting.glsl has it
+#if !defined(WITH_OPAQUE) && !defined(WITH_ROUGH) // lighting.glsl has it
 uniform sampler2D u_environment;
 #endif
 

@@ -23,9 +23,11 @@ typedef struct vtFrameUniforms {
     int32_t scene[4];  ///< objects of glass, objects, Fresnel reflection, the technique finds what is opaque
                        ///< itself
     int32_t output[4]; ///< vtOutput, layer, vtEnvironmentKind, vtBackground
-    int32_t host[4]; ///< lower left corner in the framebuffer; 1: linear output, 2: tone mapping; 1: colours,
-                     ///< 2: depths, 4: linear colours
-    float clip[4];   ///< of the projection: depth's element, constant; depth of nothing; 1: orthographic
+    int32_t host[4];   ///< lower left corner in the framebuffer; linear output; 1: colours, 2: depths, 4:
+                       ///< linear colours
+    float clip[4];     ///< of the projection: depth's element, constant; depth of nothing; 1: orthographic
+    int32_t sample[4]; ///< its number; 1: chance chooses what its paths follow; its weight; weight of
+                       ///< all beyond their number
 } vtFrameUniforms;
 
-static_assert(sizeof(vtFrameUniforms) == 19 * 16, "vtFrameUniforms must mirror the std140 block");
+static_assert(sizeof(vtFrameUniforms) == 20 * 16, "vtFrameUniforms must mirror the std140 block");

@@ -31,7 +31,7 @@ vtResult vtAccumulatePass_Resize(vtAccumulatePass* pass, const vtGL* gl, int wid
     return result;
 }
 
-void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* radiance)
+void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* radiance, int weight)
 {
     const vtTexture* before = &pass->sums[pass->latest];
     if (pass->count == 0) {
@@ -40,6 +40,7 @@ void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTextur
         gl->ClearBufferuiv(GL_COLOR, 0, nothing);
     }
     pass->latest = 1 - pass->latest;
+    pass->weight = pass->count > 0 ? pass->weight + weight : weight;
     ++pass->count;
     vtBindFramebuffer(gl, pass->framebuffers[pass->latest], before->width, before->height);
     gl->UseProgram(pass->addProgram.name);

@@ -10,6 +10,7 @@ typedef struct vtAccumulatePass {
     GLuint framebuffers[2];
     vtTexture sums[2]; ///< RGBA32UI, in turns: WebGL forbids drawing to what is read
     int latest;        ///< which of them is the sum
+    int weight;        ///< of all of them
     int count;         ///< samples in it; 0: whatever the textures hold, it is none
 } vtAccumulatePass;
 
@@ -17,8 +18,8 @@ void vtAccumulatePass_Start(vtAccumulatePass* pass, const vtGL* gl, vtDisplay di
                             vtProgramList* programs);
 vtResult vtAccumulatePass_Resize(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
                                  vtError* error);
-/// Adds the light of one sample.
-void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* radiance);
+/// Adds the light of one sample, as often as the uniform block says, which is `weight`.
+void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTexture* radiance, int weight);
 void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, const vtBehind* behind,
                            GLuint framebuffer, int x, int y);
 void vtAccumulatePass_Destroy(vtAccumulatePass* pass, const vtGL* gl);

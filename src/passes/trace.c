@@ -1,8 +1,18 @@
 #include "passes/trace.h"
 
 #include "base/error.h"
+#include "scene/material.h"
 #include "shaders.h"
 #include "technique/technique.h"
+
+bool vtTrace_IsRough(const vtSceneBuffer* scene, const vtFrame* frame)
+{
+    bool rough = false;
+    for (uint32_t i = 0; i < scene->glassCount && !scene->hasLooks; ++i) {
+        rough = rough || vtMaterial_Roughness(&scene->objects[i].material, frame->roughness) > 0.0f;
+    }
+    return rough && vtTechnique_Row(frame->technique)->traces;
+}
 
 vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment,
                                     const vtFrame* frame)
@@ -15,11 +25,12 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironm
     }
     const bool opaque = scene->objectCount > scene->glassCount, looks = scene->hasLooks;
     const bool one = scene->objectCount == 1 && !opaque && !any && !looks && !scene->objects[0].bothSides;
-    const bool pictures =
-        environment->kind == vt_environmentImage || ((opaque || looks) && scene->images.texture.width > 1);
+    const bool rough = vtTrace_IsRough(scene, frame);
+    const bool pictures = rough || environment->kind == vt_environmentImage ||
+                          ((opaque || looks) && scene->images.texture.width > 1);
     only = only && !looks;
-    return (looks ? vt_traceLooks : 0) | (pictures ? vt_traceFootprint : 0) | (one ? vt_traceOneObject : 0) |
-           (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
+    return (looks ? vt_traceLooks : 0) | (rough ? vt_traceRough : 0) | (pictures ? vt_traceFootprint : 0) |
+           (one ? vt_traceOneObject : 0) | (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
            (vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? vt_traceHost : 0) |
            (any && only ? vt_traceOnlyHeights : 0) |
            (vtFrame_IsStrict(frame) && !looks ? vt_traceStrict : 0) |
@@ -31,7 +42,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
 {
     const bool looks = (variant & vt_traceLooks) != 0;
     const bool heights = (variant & vt_traceHeights) != 0, opaque = looks || (variant & vt_traceOpaque) != 0;
-    const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
+    const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0, rough = (variant & vt_traceRough) != 0;
+    const bool strict = (variant & vt_traceStrict) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
     const bool ground = (variant & vt_traceGround) != 0;
     const vtChunk* const chunks[] = {
@@ -42,6 +54,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         one ? &vtChunk_one_object : NULL,
         looks ? &vtChunk_with_looks : NULL,
         opaque ? &vtChunk_with_opaque : NULL,
+        rough ? &vtChunk_with_rough : NULL,
         records ? NULL : &vtChunk_only_heights,
         host ? &vtChunk_with_backdrop : NULL,
         host ? &vtChunk_with_depth : NULL,
@@ -52,13 +65,15 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         &vtChunk_environment,
         &vtChunk_objects,
         &vtChunk_optics,
+        strict && !rough ? NULL : &vtChunk_chance,
+        rough ? &vtChunk_rough : NULL,
         &vtChunk_cross_surface,
         records || opaque ? &vtChunk_records : NULL,
         one ? NULL : &vtChunk_object_tree,
         heights ? &vtChunk_grid_walk : NULL,
         heights ? &vtChunk_search_heights : NULL,
         &vtChunk_search_scene,
-        opaque ? &vtChunk_lighting : NULL,
+        opaque || rough ? &vtChunk_lighting : NULL,
         opaque ? &vtChunk_shading : NULL,
         looks ? &vtChunk_looks : NULL,
         looks ? &vtChunk_cross_look : NULL,

@@ -19,7 +19,8 @@ typedef enum vtTraceVariant {
         128,              ///< pictures are seen, the environment's or of opaque things: averaged over a pixel
     vt_traceLooks = 256,  ///< some material is not plain
     vt_traceGround = 512, ///< it stands on a ground
-    vt_traceVariantCount = 1024,
+    vt_traceRough = 1024, ///< some glass is rough
+    vt_traceVariantCount = 2048,
 } vtTraceVariant;
 
 /// The techniques that need no image of the scene: from the eye to the light in one drawing (trace.frag).
@@ -41,6 +42,8 @@ typedef struct vtTraceInputs {
     int branches;                 ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
 } vtTraceInputs;
 
+/// Is some glass rough, and drawn so? Then the first sample counts as several, and light is blurred.
+bool vtTrace_IsRough(const vtSceneBuffer* scene, const vtFrame* frame);
 /// The variant for a frame.
 vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment,
                                     const vtFrame* frame);

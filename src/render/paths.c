@@ -130,7 +130,7 @@ vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, in
                           ? vtTracePass_Resize(&renderer->trace, gl, chooseTrace(renderer, frame),
                                                frame->width, frame->height, error)
                           : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
-    if (result == vt_ok && hasOpaque(renderer)) {
+    if (result == vt_ok && (hasOpaque(renderer) || vtTrace_IsRough(&renderer->scene, frame))) {
         result = vtEnvironmentBuffer_Light(&renderer->environment, gl, error);
     }
     if (result == vt_ok && frame->background == vt_backgroundBlurred) {

@@ -112,7 +112,8 @@ static void shiftFrustum(float* tangents, float x, float y, const int32_t* size)
     setVec4(tangents, tangents[0] + dx, tangents[1] + dy, tangents[2] + dx, tangents[3] + dy);
 }
 
-vtFrameUniforms vtMoveUniforms(const vtFrameUniforms* frame, int sample, int count, bool movesLayers)
+vtFrameUniforms vtMoveUniforms(const vtFrameUniforms* frame, int sample, int count, bool movesLayers,
+                               bool byChance)
 {
     vtFrameUniforms uniforms = *frame;
     float x, y;
@@ -122,6 +123,8 @@ vtFrameUniforms vtMoveUniforms(const vtFrameUniforms* frame, int sample, int cou
         shiftFrustum(uniforms.layerFrustum, x, y, uniforms.size + 2);
     }
     uniforms.optics[3] = (float)count;
+    uniforms.sample[0] = sample;
+    uniforms.sample[1] = sample > 0 && byChance;
     uniforms.eye[3] = sample == 0 ? -1.0f : vtFract(0.5f + 0.61803399f * (float)sample);
     return uniforms;
 }

@@ -10,5 +10,6 @@ void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, const vtCa
                     vtEnvironmentKind environment, vtFrameUniforms* uniforms);
 
 /// Those of one of its samples, the picture's frustum moved to it, and where `movesLayers` that of the
-/// layers; `count` samples are in the sum with it.
-vtFrameUniforms vtMoveUniforms(const vtFrameUniforms* frame, int sample, int count, bool movesLayers);
+/// layers; `count` samples are in the sum with it. `byChance`: chance chooses what all but the first follow.
+vtFrameUniforms vtMoveUniforms(const vtFrameUniforms* frame, int sample, int count, bool movesLayers,
+                               bool byChance);

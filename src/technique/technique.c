@@ -181,6 +181,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .year = 2026,
                      .refracts = true},
             .traces = true,
+            .roughness = true,
         },
     [vt_techniqueHeightField] =
         {
@@ -191,6 +192,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .year = 2008,
                      .refracts = true},
             .traces = true,
+            .roughness = true,
             .heights = true,
         },
 };

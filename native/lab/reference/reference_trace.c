@@ -24,14 +24,14 @@ typedef struct Job {
     vtReferenceImage* image;
     vtCamera camera;
     int samples;
-    float exposure;   ///< factor
+    float exposure; ///< factor
     vtPathRules rules;
     vtMedia eyeMedia;    ///< what the eye is within
     vtLighting lighting; ///< of surfaces that are matt or rough
     vtIllumination illumination;
     vtSpectrum* spectrum; ///< NULL: glass does not disperse, or there is one sample only
     bool isRough;         ///< something is, or glass disperses
-    vtGroundMap ground; ///< its light NULL: there is none
+    vtGroundMap ground;   ///< its light NULL: there is none
     int tileColumns, tileCount;
     atomic_int nextTile;
     atomic_bool failed; ///< memory is short

@@ -45,7 +45,11 @@ static void compareMaps(Fixture* fixture, const vtReference* reference, const vt
     assert_ok(vtGroundPass_MakeMap(&renderer->ground, &renderer->gl, &renderer->scene, &renderer->environment,
                                    &drawn, &error),
               error);
-    const vtPathRules rules = {0.0f, vtResolveFrame(frame).maxEvents, true, NULL, 1.0f};
+    const vtPathRules rules = {.maxEvents = vtResolveFrame(frame).maxEvents,
+                               .fresnel = true,
+                               .exposure = 1.0f,
+                               .roughness = -1.0f,
+                               .dispersion = -1.0f};
     assert_ok(vtReference_LightGround(reference, &rules, ground, environment, 0, &traced, &error), error);
     const double all = (double)(drawn.gathered.x / traced.gathered.x);
     print_message("light on the map %.4f of the reference's, what is changed %.4f of %.4f\n", all,
@@ -59,11 +63,8 @@ static void compareMaps(Fixture* fixture, const vtReference* reference, const vt
 static void comparePictures(Fixture* fixture, const vtReference* reference, const vtFrame* frame,
                             const vtGround* ground, const vtEnvironment* environment)
 {
-    const vtReferenceDef def = {.frame = frame,
-                                .environment = environment,
-                                .ground = ground,
-                                .fresnel = true,
-                                .onlyPicture = true};
+    const vtReferenceDef def = {
+        .frame = frame, .environment = environment, .ground = ground, .fresnel = true, .onlyPicture = true};
     vtReferenceImage image;
     vtError error;
     assert_ok(vtReference_Trace(reference, &def, &image, &error), error);
@@ -71,7 +72,8 @@ static void comparePictures(Fixture* fixture, const vtReference* reference, cons
     assert_non_null(traced);
     vtReference_ToSrgb(&image, traced);
     vtPictureError difference;
-    assert_ok(vtComparePictureBytes(fixture->pixels, traced, 4, side, side, &difference, NULL, &error), error);
+    assert_ok(vtComparePictureBytes(fixture->pixels, traced, 4, side, side, &difference, NULL, &error),
+              error);
     print_message("mean FLIP %.4f\n", difference.flip);
     assert_true(difference.flip <= 0.06);
     free(traced);

@@ -1,0 +1,39 @@
+// Numbers between 0 and 1 for what a sample leaves to chance: another for every pixel, sample and use. Based on:
+//   Mark Jarzynski, Marc Olano. Hash Functions for GPU Rendering. JCGT 2020: pcg3d;
+//   R. Cranley, T. N. L. Patterson. Randomization of Number Theoretic Methods for Multiple Integration. 1976: a sequence
+//   shifted by another number in every pixel.
+// Needs frame.
+
+vec3 mixedNumbers(uvec3 v)
+{
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return vec3(v >> 8u) / 16777216.0;
+}
+
+// Of the sample's path number `round`: of the first two they are spread evenly over the samples.
+float chanceOf(int round)
+{
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    float shift = mixedNumbers(uvec3(pixel, uint(round) + (round < 2 ? 0u : 64u * uint(u_sample.x)))).x;
+    return fract(shift + (round == 0 ? u_eye.w : round == 1 ? fract(43.0 * u_eye.w) : 0.0));
+}
+
+#ifdef WITH_ROUGH
+// Two numbers for the facet that the sample's path `number` meets after so many events: of its first two they are spread
+// evenly over the samples, by steps of the root of x^5 = x + 1.
+vec2 chanceOfFacet(int number, int events)
+{
+    bool isSpread = number == 0 && events < 2;
+    uint use = 0x10000u + uint(64 * number + events);
+    vec2 shift = mixedNumbers(uvec3(gl_FragCoord.xy, use + (isSpread ? 0u : 0x100000u * uint(u_sample.x)))).xy;
+    vec2 steps = events == 0 ? vec2(0.85667488, 0.73389185) : vec2(0.62870672, 0.53859726);
+    return fract(shift + (isSpread ? fract(float(u_sample.x) * steps) : vec2(0.0)));
+}
+#endif
