@@ -193,10 +193,10 @@ describe('output', () => {
     draw('dark.exr', '--exposure', '-5');
     assert.ok(off('dark.exr', 'dark.png') <= 1);
     assert.ok(off('mapped.exr', 'dark.png') > 200);
-    // Several samples: light is not cut before its mean is taken, so a lamp's edge is brighter.
+    // Several samples: no light is cut before its mean is taken.
     draw('samples.exr', '--samples', '4');
     draw('samples.png', '--samples', '4', '--bits', '16');
-    assert.ok(Number(vitrine(['compare', 'samples.exr', 'samples.png', '--json']).text.match(/"psnr":\s*([\d.]+)/)[1]) > 30);
+    assert.ok(off('samples.exr', 'samples.png') <= 1);
     // Alpha is in an OpenEXR file only where something is transparent.
     const names = (file) => file.subarray(0, 400).toString('latin1').match(/[ABGR]\0\x02\0\0\0/g).map((name) => name[0]).join('');
     assert.equal(names(light), 'BGR');

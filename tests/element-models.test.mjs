@@ -76,7 +76,7 @@ describe('files in the element', { skip }, () => {
       const send = (body, type) => response.writeHead(200, { 'content-type': type, 'content-security-policy': csp }).end(body);
       if (pathname === '/page.html') {
         send('<!doctype html><html lang="en"><title>Files</title><link rel="stylesheet" href="/test.css"><link rel="icon" href="/icon.png">'
-          + '<script type="module" src="/element/vitrine-viewer.js"></script><vitrine-viewer id="a" samples="1" skybox-image camera-orbit="0deg 90deg 4m" camera-target="0m 0m 0m" field-of-view="40deg"></vitrine-viewer>', 'text/html');
+          + '<script type="module" src="/element/vitrine-viewer.js"></script><vitrine-viewer tone-mapping="none" id="a" samples="1" skybox-image camera-orbit="0deg 90deg 4m" camera-target="0m 0m 0m" field-of-view="40deg"></vitrine-viewer>', 'text/html');
       } else if (pathname === '/test.css') send(`vitrine-viewer { width: ${side}px; height: ${side}px }`, 'text/css');
       else if (pathname === '/icon.png') send(PNG.sync.write(fourColors()), 'image/png');
       else if (missing.has(pathname)) response.writeHead(404).end();
@@ -194,6 +194,8 @@ describe('files in the element', { skip }, () => {
       same(t, name, await show(`${name}.glb`, withPicture(plain, picture, 'KHR_texture_basisu', 'image/ktx2')), expected, mostMean);
     }
     assert.deepEqual(decoders(), ['/element/basis.js', '/element/basis.wasm']);
+    const both = withPicture(await packMeshopt(plain), await packPicture(fourColors(), true), 'KHR_texture_basisu', 'image/ktx2');
+    same(t, 'with packed geometry', await show('both.glb', both), expected, 0.3);
     same(t, 'AVIF', await show('avif.glb', withPicture(plain, fourColorsAvif, 'EXT_texture_avif', 'image/avif')), expected, 0.1);
     const { data } = await page.evaluate(async (bytes) => {
       const { ktxToPicture } = await import('/element/basis.js');
@@ -256,6 +258,7 @@ describe('files in the element', { skip }, () => {
     assert.match(await refusal('beyond.glb', how((one) => (one.byteOffset = 1e6))), /reads beyond the end of buffer 0/);
     assert.match(await refusal('list.glb', edited(meshopt, (json_) => (json_.meshes = {}))), /^model 'list\.glb': its JSON is not glTF/);
     await show('meshopt.glb', meshopt);
+    await show('draco.glb', draco);
   });
 
   test('a decoder that is not served is told', async (t) => {

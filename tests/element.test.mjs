@@ -497,7 +497,8 @@ describe('the element', { skip }, () => {
     assert.ok(differing < 1, `${differing} % differ`);
     const plain = await shown(page, { ground: false });
     assert.ok(difference(plain, nativePicture(...view)) < 0.5);
-    assert.ok(difference(plain, lit) > 1);
+    const changed = lit.data.filter((value, at) => Math.abs(value - plain.data[at]) > 5).length;
+    assert.ok(changed > 500, `${changed} numbers show the ground`);
     assert.ok(difference(await shown(page, { shadowIntensity: 1 }), lit) < 0.01, 'as model-viewer has it');
     await page.evaluate(() => a.removeAttribute('skybox-image'));
     await quiet(page);
@@ -1194,7 +1195,7 @@ describe('the element', { skip }, () => {
       Object.assign(a, { ior: null, cameraControls: true, maxEvents: 3 });
       return [before, a.ior, a.hasAttribute('ior'), a.getAttribute('camera-controls'), a.getAttribute('max-events'), a.constructor.observedAttributes.length];
     });
-    assert.deepEqual(seen, [[1.4, null, false, null], null, false, '', '3', 34]);
+    assert.deepEqual(seen, [[1.4, null, false, null], null, false, '', '3', 41]);
     const blob = await page.evaluate(async () => {
       const { type, size } = await a.toBlob({ mimeType: 'image/jpeg' });
       return [type, size > 1000];

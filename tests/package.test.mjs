@@ -121,7 +121,7 @@ describe('the package', { skip: missing }, () => {
   test('weighs what a page can carry', (context) => {
     const kilobytes = Number(report.match(/loads: ([\d.]+) KB/)[1]);
     context.diagnostic(report);
-    assert.ok(kilobytes < 185, `${kilobytes} KB gzip`);
+    assert.ok(kilobytes < 192, `${kilobytes} KB gzip`);
     for (const [file, most] of Object.entries({ 'exr.js': 12, 'unpack.js': 4, 'draco.js': 14, 'draco.wasm': 70, 'meshopt.js': 9, 'basis.js': 14, 'basis.wasm': 260 })) {
       const bytes = Number(report.match(new RegExp(`element/${file}: \\d+ bytes, (\\d+) gzip, loaded once a file needs it`))?.[1]);
       assert.ok(bytes > 0 && bytes < 1000 * most, `${file}: ${bytes} bytes gzip`);

@@ -35,7 +35,7 @@
                                 // object of its body
 #define VT_OBJECT_EMISSIVE 10   // light of its own; number of its material in the table of materials
 #define VT_OBJECT_IMAGES 11     // layers of its base colour and metallic-roughness image, or VT_NO_TRIANGLE; number of
-                                // its first record of more attributes, or that; 0
+                                // its first record of more attributes, or that; dispersion
 #define VT_OBJECT_FRUSTUM 12    // layered: tangents of its layers' frustum, left, bottom, right, top
 #define VT_OBJECT_DEPTHS 13     // layered: of that frustum: near, far, 1 / (far - near); 0
 #define VT_OBJECT_OWN_LOW 14    // box of its mesh, own coordinates; 1 where it is searched by its heights

@@ -14,7 +14,12 @@ vec3 g_tint;
 // Of a medium by its number plus one; 0 is air.
 vec4 glassOf(uint id)
 {
-    return mix(vec4(1.0, 0.0, 0.0, 0.0), readGlass(max(int(id) - 1, 0)), bvec4(id != 0u));
+    int object = max(int(id) - 1, 0);
+    vec4 glass = readGlass(object);
+#ifdef WITH_SPECTRAL
+    glass.x = dispersedIndex(object, glass.x);
+#endif
+    return mix(vec4(1.0, 0.0, 0.0, 0.0), glass, bvec4(id != 0u));
 }
 
 // What is left of the path's light after a distance in the medium it is in.

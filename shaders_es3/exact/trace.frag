@@ -160,11 +160,9 @@ void writeLight(vec3 light, int status)
     o_radiance = floatBitsToUint(vec4(light * u_optics.z * share, share));
 }
 
-void main()
+// What a pixel sees; what became of its own path.
+vec3 lightOfPixel(out int status)
 {
-#ifdef ONE_OBJECT
-    readObject();
-#endif
     vec2 tangent = pictureTangent(gl_FragCoord.xy);
     vec3 view = cameraDirection(tangent);
 #ifdef WITH_FOOTPRINT
@@ -174,12 +172,14 @@ void main()
 #ifdef STRICT
     End end = followPath(p, AIR, true, false);
     o_path = uvec4(floatBitsToUint(p.direction), pathState(p, end.status));
-    writeLight(p.transmittance * lightAlong(p, end.meeting), end.status);
+    status = end.status;
+    return p.transmittance * lightAlong(p, end.meeting);
 #else
     Media media = AIR;
     vec3 light = vec3(0.0);
     uvec4 path = uvec4(0u);
-    int left = u_branches, status = VT_PATH_LOST;
+    int left = u_branches;
+    status = VT_PATH_LOST;
 #ifdef WITH_ROUGH
     vec3 firstLobe = vec3(0.0);
 #endif
@@ -243,7 +243,25 @@ void main()
         }
     }
     o_path = path;
-    writeLight(light, status);
+    return light;
 #endif
+}
+
+void main()
+{
+#ifdef ONE_OBJECT
+    readObject();
+#endif
+    int status;
+#ifdef WITH_SPECTRAL
+    vec3 light = vec3(0.0);
+    for (int part = 0; part < 3; ++part) {
+        vec3 color = startWavelength(part);
+        light += color * lightOfPixel(status);
+    }
+#else
+    vec3 light = lightOfPixel(status);
+#endif
+    writeLight(light, status);
 }
 #endif

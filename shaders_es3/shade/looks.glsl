@@ -153,7 +153,7 @@ Look lookAt(Meeting met, SurfaceHit surface, float footprint)
     look.base.a = alphas.y > 0.0 ? (look.base.a < alphas.y ? 0.0 : 1.0) : (flags.x & VT_LOOK_BLEND) != 0u ? look.base.a : 1.0;
     vec4 share = readMap(material, 1, corner, footprint, size);
     look.metallic = color.w * share.b;
-    look.roughness = emissive.w * share.g;
+    look.roughness = objectNumbers(object, VT_OBJECT_SURFACE).y * share.g; // it may be given for all glass
     look.passes = object >= u_scene.x ? 0.0
                 : alphas.z * (1.0 - look.metallic) * readMap(material, 2, corner, footprint, size).r;
     uint bent = materialTexel(material + uint(VT_MATERIAL_MAPS + 2 * 3)).x;

@@ -22,7 +22,7 @@ float seenDepth(ivec2 pixel)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy) - u_host.xy;
-    vec4 light = uintBitsToFloat(texelFetch(u_radiance, pixel, 0)) / (u_optics.w + float(u_sample.w));
+    vec4 light = max(uintBitsToFloat(texelFetch(u_radiance, pixel, 0)), 0.0) / (u_optics.w + float(u_sample.w));
     float depth = seenDepth(pixel), around = NOTHING_BEHIND;
     for (int i = 0; i < 9; ++i) { // a pixel that only some samples cover has the depth of its neighbours
         around = min(around, seenDepth(pixel + ivec2(i % 3, i / 3) - 1));

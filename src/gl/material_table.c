@@ -62,7 +62,7 @@ static void writeMaterial(const vtObjectBuffer* object, const vtImageArray* imag
         (object->placed.thin ? VT_LOOK_THIN : 0) | (m->unlit && m->opaque ? VT_LOOK_UNLIT : 0) |
         (m->ior == 0.0f ? VT_LOOK_MIRROR : 0) | (m->alphaMode == vt_alphaBlend ? VT_LOOK_BLEND : 0);
     write(words, VT_MATERIAL_COLOR, color.x, color.y, color.z, m->metallic);
-    write(words, VT_MATERIAL_EMISSIVE, light.x, light.y, light.z, vtMaterial_Roughness(m, -1.0f));
+    write(words, VT_MATERIAL_EMISSIVE, light.x, light.y, light.z, 0.0f); // roughness: object table
     write(words, VT_MATERIAL_SPECULAR, glossy.x, glossy.y, glossy.z, m->specular);
     write(words, VT_MATERIAL_FILM, m->iridescence, m->iridescenceIor, m->iridescenceMin, m->iridescenceMax);
     write(words, VT_MATERIAL_SCALES, m->normalScale, m->occlusionStrength, m->checker, 0.0f);

@@ -44,11 +44,6 @@ static vtVec3 multiply(vtVec3 a, vtVec3 b)
     return (vtVec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-static bool isFinite(vtVec3 v)
-{
-    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
-}
-
 // ------------------------------------------------------------------------------------------- definition
 
 vtGround vtDefaultGround(void)
@@ -58,6 +53,12 @@ vtGround vtDefaultGround(void)
                       .shadowIntensity = 1.0f,
                       .sunSize = 0.53f,
                       .sunColor = {3.0f, 3.0f, 3.0f}};
+}
+
+#ifdef VT_WITH_ABOUT // a page's attributes have their ranges
+static bool isFinite(vtVec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
 static vtResult checkNumber(const char* name, float value, float most, vtError* error)
@@ -102,6 +103,13 @@ vtResult vtValidateGround(const vtGround* ground, vtError* error)
     }
     return vtSucceed(error);
 }
+#else
+vtResult vtValidateGround(const vtGround* ground, vtError* error)
+{
+    (void)ground;
+    return vtSucceed(error);
+}
+#endif
 
 // -------------------------------------------------------------------------------------------------- sun
 
@@ -187,7 +195,7 @@ static void measureSun(Dome* dome, const vtEnvironment* environment, vtSun* sun)
     }
     direction = vtNormalize(direction);
     if (angle < largestSun && direction.y > 0.02f) {
-        *sun = (vtSun){direction, acosf(1.0f - angle / (2.0f * VT_PI)), irradiance, sunShare * brightest};
+        *sun = (vtSun){direction, sqrtf(angle / VT_PI), irradiance, sunShare * brightest};
     }
 }
 
@@ -241,7 +249,7 @@ static void sampleSun(const vtSun* sun, vtLightSample* samples[vt_groundRaysCoun
     for (int i = 0; i < VT_GROUND_SAMPLES; ++i) {
         float u, v;
         squareAt(i, &u, &v);
-        const float radius = tanf(sun->radius) * sqrtf(u), angle = 2.0f * VT_PI * v;
+        const float radius = sinf(sun->radius) / cosf(sun->radius) * sqrtf(u), angle = 2.0f * VT_PI * v;
         vtVec3 d = vtMulAdd(sun->direction, radius * cosf(angle), right);
         d = vtNormalize(vtMulAdd(d, radius * sinf(angle), up));
         d.y = fmaxf(d.y, 0.01f); // none of it has set
@@ -389,11 +397,13 @@ vtResult vtPlanGround(const vtGround* ground, const vtEnvironment* environment, 
                            .glassHigh = glass[1],
                            .reach = vtLength(vtSub(scene[1], scene[0])),
                            .hasGlass = glass[0].x <= glass[1].x};
+#ifdef VT_WITH_ABOUT // a page has it at the lowest point
     if (plan->height > scene[0].y + 1e-3f * plan->reach) {
         return vtFail(error, vt_errorArgument,
                       "ground: it lies at %g, but the scene reaches down to %g; put it there or below",
                       (double)plan->height, (double)scene[0].y);
     }
+#endif
     vtSun sun;
     const vtResult result = sampleLights(plan, environment, &sun, error);
     if (result != vt_ok) {

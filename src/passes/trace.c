@@ -14,6 +14,15 @@ bool vtTrace_IsRough(const vtSceneBuffer* scene, const vtFrame* frame)
     return rough && vtTechnique_Row(frame->technique)->traces;
 }
 
+bool vtTrace_Disperses(const vtSceneBuffer* scene, const vtFrame* frame)
+{
+    bool disperses = false;
+    for (uint32_t i = 0; i < scene->glassCount; ++i) {
+        disperses = disperses || vtMaterial_Dispersion(&scene->objects[i].material, frame->dispersion) > 0.0f;
+    }
+    return disperses && vtTechnique_Row(frame->technique)->traces;
+}
+
 vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment,
                                     const vtFrame* frame)
 {
@@ -29,7 +38,8 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironm
     const bool pictures = rough || environment->kind == vt_environmentImage ||
                           ((opaque || looks) && scene->images.texture.width > 1);
     only = only && !looks;
-    return (looks ? vt_traceLooks : 0) | (rough ? vt_traceRough : 0) | (pictures ? vt_traceFootprint : 0) |
+    return (looks ? vt_traceLooks : 0) | (rough ? vt_traceRough : 0) |
+           (vtTrace_Disperses(scene, frame) ? vt_traceSpectral : 0) | (pictures ? vt_traceFootprint : 0) |
            (one ? vt_traceOneObject : 0) | (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
            (vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? vt_traceHost : 0) |
            (any && only ? vt_traceOnlyHeights : 0) |
@@ -43,7 +53,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
     const bool looks = (variant & vt_traceLooks) != 0;
     const bool heights = (variant & vt_traceHeights) != 0, opaque = looks || (variant & vt_traceOpaque) != 0;
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0, rough = (variant & vt_traceRough) != 0;
-    const bool strict = (variant & vt_traceStrict) != 0;
+    const bool strict = (variant & vt_traceStrict) != 0, spectral = (variant & vt_traceSpectral) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
     const bool ground = (variant & vt_traceGround) != 0;
     const vtChunk* const chunks[] = {
@@ -65,7 +75,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         &vtChunk_environment,
         &vtChunk_objects,
         &vtChunk_optics,
-        strict && !rough ? NULL : &vtChunk_chance,
+        strict && !rough && !spectral ? NULL : &vtChunk_chance,
+        spectral ? &vtChunk_spectral : NULL,
         rough ? &vtChunk_rough : NULL,
         &vtChunk_cross_surface,
         records || opaque ? &vtChunk_records : NULL,

@@ -20,7 +20,8 @@ typedef enum vtTraceVariant {
     vt_traceLooks = 256,  ///< some material is not plain
     vt_traceGround = 512, ///< it stands on a ground
     vt_traceRough = 1024, ///< some glass is rough
-    vt_traceVariantCount = 2048,
+    vt_traceSpectral = 2048, ///< some glass disperses
+    vt_traceVariantCount = 4096,
 } vtTraceVariant;
 
 /// The techniques that need no image of the scene: from the eye to the light in one drawing (trace.frag).
@@ -44,6 +45,8 @@ typedef struct vtTraceInputs {
 
 /// Is some glass rough, and drawn so? Then the first sample counts as several, and light is blurred.
 bool vtTrace_IsRough(const vtSceneBuffer* scene, const vtFrame* frame);
+/// Does some glass disperse, and is drawn so?
+bool vtTrace_Disperses(const vtSceneBuffer* scene, const vtFrame* frame);
 /// The variant for a frame.
 vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment,
                                     const vtFrame* frame);

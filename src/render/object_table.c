@@ -42,6 +42,8 @@ static void writeMaterial(const vtObjectBuffer* object, const vtFrame* frame, ui
                  (float)object->placed.body);
     writeNumbers(words, VT_OBJECT_EMISSIVE, emissive.x, emissive.y, emissive.z, 0.0f);
     words[4 * VT_OBJECT_EMISSIVE + 3] = row;
+    writeNumbers(words, VT_OBJECT_IMAGES, 0.0f, 0.0f, 0.0f,
+                 vtMaterial_Dispersion(material, frame->dispersion));
     words[4 * VT_OBJECT_IMAGES] = object->colorLayer;
     words[4 * VT_OBJECT_IMAGES + 1] = object->roughLayer;
     words[4 * VT_OBJECT_IMAGES + 2] = object->firstMore;

@@ -182,6 +182,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .refracts = true},
             .traces = true,
             .roughness = true,
+            .dispersion = true,
         },
     [vt_techniqueHeightField] =
         {
@@ -193,6 +194,7 @@ static const vtTechniqueRow rows[vt_techniqueCount] = {
                      .refracts = true},
             .traces = true,
             .roughness = true,
+            .dispersion = true,
             .heights = true,
         },
 };

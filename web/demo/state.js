@@ -10,8 +10,8 @@ export const techniques = [
   { id: 'wyman', name: 'Wyman', year: 2005, uses: ['ior'], summary: 'Two refractions, the distance between them guessed from two known ones.' },
   { id: 'oliveira', name: 'Oliveira & Brauwers', year: 2007, uses: ['ior', 'steps'], summary: 'Two refractions, the back side found by a search in its depth.' },
   { id: 'layered', name: 'Layered', year: 2014, uses: ['ior', 'layers', 'steps', 'events'], summary: 'Peeled layers searched for every refraction and total reflection.' },
-  { id: 'exact', name: 'Exact', year: 2026, uses: ['ior', 'events'], summary: 'Rays walk a hierarchy of the triangles: every meeting with the glass is where it is, reflections included.' },
-  { id: 'heightfield', name: 'Height field', year: 2008, uses: ['ior', 'events'], summary: 'As exact, but a relief by its heights alone: no triangles.' },
+  { id: 'exact', name: 'Exact', year: 2026, uses: ['ior', 'roughness', 'dispersion', 'events'], summary: 'Rays walk a hierarchy of the triangles: every meeting with the glass is where it is, reflections included.' },
+  { id: 'heightfield', name: 'Height field', year: 2008, uses: ['ior', 'roughness', 'dispersion', 'events'], summary: 'As exact, but a relief by its heights alone: no triangles.' },
 ];
 
 /** Whether a technique peels layers from the eye, which can be shown. */

@@ -38,8 +38,13 @@ export async function ktxToPicture(bytes) {
     const pixels = new Uint8Array(file.getImageTranscodedSizeInBytes(level, 0, 0, rgba));
     if (pixels.length !== 4 * origWidth * origHeight || !file.transcodeImage(pixels, level, 0, 0, rgba, 0, -1, -1)) throw new Error('damaged');
     return new ImageData(new Uint8ClampedArray(pixels.buffer), origWidth, origHeight);
+  } catch (reason) {
+    if (reason instanceof WebAssembly.RuntimeError) loading = null; // its memory may be in disorder: the next picture gets a new transcoder
+    throw reason;
   } finally {
-    file.close();
-    file.delete();
+    if (loading !== null) {
+      file.close();
+      file.delete();
+    }
   }
 }

@@ -59,8 +59,13 @@ export function decode(draco, bytes, wanted, spend) {
     const indices = take(draco, size, (place) => decoder.GetTrianglesUInt32Array(mesh, size, place));
     if (!indices) throw new Error('it has no triangles');
     return { vertexCount, attributes, indices };
+  } catch (reason) {
+    if (reason instanceof WebAssembly.RuntimeError) loading = null; // its memory may be in disorder: the next file gets a new decoder
+    throw reason;
   } finally {
-    draco.destroy(mesh);
-    draco.destroy(decoder);
+    if (loading !== null) {
+      draco.destroy(mesh);
+      draco.destroy(decoder);
+    }
   }
 }

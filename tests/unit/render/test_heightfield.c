@@ -305,7 +305,7 @@ static void picturesAreThoseOfTriangles(void** state)
     addShape(&scene, "sphere", true, (vtVec3){0.2f, 0.1f, -1.5f}, 0.6f);
     vtFrame frame = frameAt((vtVec3){0.5f, 0.4f, 2.6f}, (vtVec3){0.0f, 0.0f, 0.0f}, 45.0f);
     frame.fresnel = true;
-    frame.samples = 4;
+    frame.samples = 1; // chance chooses in the others, and by the least difference
     assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
     draw(fixture, &frame);
     uint8_t* drawn = malloc(sizeof fixture->pixels);

@@ -1,4 +1,5 @@
-// Rough glass as `exact` draws it, by what is known of it without another renderer.
+// Rough glass, and glass that disperses, as `exact` draws them, by what is known of it without another
+// renderer.
 #include <math.h>
 #include <string.h>
 
@@ -114,12 +115,53 @@ static void littleRoughnessIsSmooth(void** state)
     }
 }
 
+// All wavelengths together are white; without dispersion the picture is that of any other glass.
+static void wavelengthsSumToWhite(void** state)
+{
+    Fixture* fixture = *state;
+    static uint8_t plain[sizeof fixture->pixels];
+    setShape(fixture->renderer, "knot");
+    vtFrame frame = smallFrame(vt_techniqueExact);
+    frame.width = frame.height = 48;
+    frame.fresnel = true;
+    frame.maxEvents = 32;
+    for (int samples = 1; samples <= 33; samples += 32) {
+        frame.samples = samples;
+        setEnvironment(fixture->renderer, "studio");
+        frame.exposure = 0.0f;
+        frame.dispersion = -1.0f;
+        drawShape(fixture, &frame);
+        memcpy(plain, fixture->pixels, sizeof plain);
+        frame.dispersion = 0.0f;
+        drawShape(fixture, &frame);
+        assert_memory_equal(plain, fixture->pixels, sizeof plain);
+        frame.dispersion = 2.0f;
+        drawShape(fixture, &frame);
+        assert_memory_not_equal(plain, fixture->pixels, sizeof plain);
+
+        setWhite(fixture);
+        frame.exposure = -1.0f;
+        drawShape(fixture, &frame);
+        double sums[3] = {0.0};
+        for (int at = 0; at < 4 * 48 * 48; ++at) {
+            if (at % 4 < 3) {
+                sums[at % 4] += (double)linearOf(fixture->pixels[at]) / 0.5 / (48 * 48);
+            }
+        }
+        print_message("  %d samples: %.4f %.4f %.4f\n", samples, sums[0], sums[1], sums[2]);
+        for (int channel = 0; channel < 3; ++channel) {
+            assert_true(fabs(sums[channel] - 1.0) < 0.02);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothingIsLostInAFurnace),
         cmocka_unit_test(indexOneIsNoFog),
         cmocka_unit_test(littleRoughnessIsSmooth),
+        cmocka_unit_test(wavelengthsSumToWhite),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);
 }
