@@ -235,6 +235,8 @@ const files = {
       const [left, right] = [lightAt(picture, -0.4, 0.1), lightAt(picture, 0.4, 0.1)];
       assert.ok(left[0] > 1.5 * left[2] && right[2] > 1.5 * right[0], `vertex colours: ${left}, ${right}`);
       same([[lightAt(picture, 1.5, 0.2), [0.94, 0.64, 0.14], 'what is opaque, smooth']], 4);
+      const { notes } = draw([fileOf('glass-pictures'), ...usual, '-t', 'exact']); // its own roughness
+      assert.match(notes, /note: technique exact draws no roughness of glass where a material is not plain; reference does/);
     },
   },
   'alpha-blend': {

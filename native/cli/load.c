@@ -326,7 +326,7 @@ static void printLooks(vtTechnique technique, const vtScene* scene)
     }
 }
 
-/// Says that a technique draws no roughness or dispersion, where glass has it.
+/// Says that a technique draws no roughness or dispersion, where glass has it, or not in such a scene.
 static void printGlass(vtTechnique technique, const vtScene* scene, const vtFrame* frame)
 {
     const vtTechniqueRow* row = vtTechnique_Row(technique);
@@ -336,8 +336,14 @@ static void printGlass(vtTechnique technique, const vtScene* scene, const vtFram
         rough |= !material->opaque && vtMaterial_Roughness(material, frame->roughness) > 0.0f;
         disperses |= !material->opaque && vtMaterial_Dispersion(material, frame->dispersion) > 0.0f;
     }
-    rough &= !row->roughness;
     disperses &= !row->dispersion;
+    if (rough && row->roughness && vtScene_HasLooks(scene)) {
+        fprintf(stderr,
+                "vitrine: note: technique %s draws no roughness of glass where a material is not plain; "
+                "reference does\n",
+                row->info.id);
+    }
+    rough &= !row->roughness;
     if (rough || disperses) {
         fprintf(stderr, "vitrine: note: technique %s draws no %s of glass; reference does\n", row->info.id,
                 rough && disperses ? "roughness and dispersion"
