@@ -22,6 +22,12 @@ static inline vtVec3 vtScale(vtVec3 a, float s)
     return (vtVec3){a.x * s, a.y * s, a.z * s};
 }
 
+/// Component by component.
+static inline vtVec3 vtMultiply(vtVec3 a, vtVec3 b)
+{
+    return (vtVec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
 /// a + s * b
 static inline vtVec3 vtMulAdd(vtVec3 a, float s, vtVec3 b)
 {

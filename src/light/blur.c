@@ -9,15 +9,10 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
+#include "light/environment.h"
 #include "light/environment_levels.h"
 
 enum { builtInWidth = 1024 };
-
-static vtVec3 directionAt(float u, float v)
-{
-    const float azimuth = 2.0f * VT_PI * (u - 0.5f), height = VT_PI * (0.5f - v), across = cosf(height);
-    return (vtVec3){across * cosf(azimuth), sinf(height), across * sinf(azimuth)};
-}
 
 /// A built-in environment as a picture.
 static bool drawBuiltIn(const vtEnvironment* environment, vtEnvironment* picture)
@@ -26,9 +21,9 @@ static bool drawBuiltIn(const vtEnvironment* environment, vtEnvironment* picture
     *picture = (vtEnvironment){vt_environmentImage, NULL, width, height};
     picture->pixels = vtAllocate((size_t)width * (size_t)height, 3 * sizeof(float));
     for (int i = 0; i < width * height && picture->pixels != NULL; ++i) {
-        const vtVec3 light =
-            vtEnvironment_Sample(environment, directionAt(((float)(i % width) + 0.5f) / (float)width,
-                                                          ((float)(i / width) + 0.5f) / (float)height));
+        const vtVec3 light = vtEnvironment_Sample(
+            environment, vtEnvironmentDirection(((float)(i % width) + 0.5f) / (float)width,
+                                                ((float)(i / width) + 0.5f) / (float)height));
         picture->pixels[3 * i] = light.x;
         picture->pixels[3 * i + 1] = light.y;
         picture->pixels[3 * i + 2] = light.z;

@@ -145,6 +145,12 @@ static vtVec3 texel(const vtEnvironment* environment, int column, int row)
     return vtMakeVec3(environment->pixels + ((size_t)row * (size_t)width + (size_t)column) * 3);
 }
 
+vtVec3 vtEnvironmentDirection(float u, float v)
+{
+    const float azimuth = 2.0f * VT_PI * (u - 0.5f), height = VT_PI * (0.5f - v), across = cosf(height);
+    return (vtVec3){across * cosf(azimuth), sinf(height), across * sinf(azimuth)};
+}
+
 vtVec3 vtEnvironmentImage(const vtEnvironment* environment, vtVec3 d)
 {
     const vec2 uv = environmentCoordinates(d);

@@ -9,5 +9,8 @@ vtVec3 vtEnvironmentChecker(vtVec3 d);
 vtVec3 vtEnvironmentStudio(vtVec3 d);
 vtVec3 vtEnvironmentSky(vtVec3 d);
 
+/// Where an equirectangular picture shows it: u from the left and v from the top, 0 to 1.
+vtVec3 vtEnvironmentDirection(float u, float v);
+
 /// Bilinear between texel centres as GL does, u repeated and v clamped.
 vtVec3 vtEnvironmentImage(const vtEnvironment* environment, vtVec3 d);

@@ -9,7 +9,7 @@
 //  - The ground is one square map. A photon is spread over four texels by its place, then the map is blurred
 //    by a tent of three: together a smooth kernel three texels wide.
 //  - Rays stand on a lattice, rows of a grid shifted by the golden ratio, and their directions come in a
-//  fixed order that has all parts of a light in every
+//    fixed order that has all parts of a light in every
 //    8 x 8 of them (Bayer 1973), so that even light comes out even.
 //  - Glass and what is opaque cast the same shadow; all the light that glass lets through is photons'.
 //  - The sun of an environment is what hangs together with its brightest place and is at least a fifth as
@@ -37,11 +37,6 @@ static const float edge = 0.06f; // of the map, where it fades to nothing done
 static float luminance(vtVec3 c)
 {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
-
-static vtVec3 multiply(vtVec3 a, vtVec3 b)
-{
-    return (vtVec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
 // ------------------------------------------------------------------------------------------- definition
@@ -500,7 +495,7 @@ void vtGroundPlan_AddPhoton(vtGroundPlan* plan, vtGroundLight light, const vtGro
         return;
     }
     const float rays = (float)across * (float)across;
-    const vtVec3 flux = vtScale(multiply(ray->sample->color, share), ray->area * texels * texels / rays);
+    const vtVec3 flux = vtScale(vtMultiply(ray->sample->color, share), ray->area * texels * texels / rays);
     const int left = (int)floorf(column), upper = (int)floorf(row);
     for (int k = 0; k < 4; ++k) {
         const int i = left + k % 2, j = upper + k / 2;
@@ -609,7 +604,7 @@ static void compose(const vtGroundPlan* plan, vtGroundMap* map)
     }
     const double texels = (double)side * (double)side;
     map->gathered = (vtVec3){(float)(sum[0] / texels), (float)(sum[1] / texels), (float)(sum[2] / texels)};
-    map->radiance = multiply(plan->ground.color, vtScale(whole, 1.0f / VT_PI));
+    map->radiance = vtMultiply(plan->ground.color, vtScale(whole, 1.0f / VT_PI));
 }
 
 vtResult vtGroundPlan_Finish(vtGroundPlan* plan, vtGroundMap* map, vtError* error)
@@ -662,5 +657,5 @@ vtVec3 vtGroundMap_Light(const vtGroundMap* map, vtVec3 position, vtVec3 directi
     const float u = (position.x + distance * direction.x - map->lowX) / map->size;
     const float v = (position.z + distance * direction.z - map->lowZ) / map->size;
     const vtVec3 share = readMap(map->light, side, u, v);
-    return multiply(share, map->matt ? map->radiance : beyond);
+    return vtMultiply(share, map->matt ? map->radiance : beyond);
 }

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
+#include "light/environment.h"
 
 enum {
     side = VT_LIGHTING_SIDE, // of the environment as sampled, and of the finest level
@@ -38,14 +39,6 @@ static float shareOfRow(int row, int count)
 
 // -------------------------------------------------------------------------------------- the environment
 
-/// u from the left and t from the top, 0 to 1.
-static vtVec3 directionAt(float u, float t)
-{
-    const float azimuth = 2.0f * VT_PI * (u - 0.5f), latitude = VT_PI * (0.5f - t);
-    const float across = cosf(latitude);
-    return (vtVec3){across * cosf(azimuth), sinf(latitude), across * sinf(azimuth)};
-}
-
 /// Mean over a texel: of every pixel of pictures up to 4096 across, of 2 x 2 directions else.
 static vtVec3 sampleTexel(const vtEnvironment* environment, int column, int row)
 {
@@ -60,7 +53,7 @@ static vtVec3 sampleTexel(const vtEnvironment* environment, int column, int row)
             const size_t y = (size_t)(t * (float)environment->height);
             sum = vtAdd(sum, vtMakeVec3(environment->pixels + 3 * (y * (size_t)environment->width + x)));
         } else {
-            sum = vtAdd(sum, vtEnvironment_Sample(environment, directionAt(u, t)));
+            sum = vtAdd(sum, vtEnvironment_Sample(environment, vtEnvironmentDirection(u, t)));
         }
     }
     return vtScale(sum, 1.0f / (float)(count * count));
@@ -119,7 +112,8 @@ static void projectIrradiance(const vtVec3* rip, vtVec3 irradiance[9])
         for (int column = 0; column < side; ++column) {
             const vtVec3 light = vtScale(rip[row * stride + column], angle);
             float values[9];
-            harmonics(directionAt(((float)column + 0.5f) / (float)side, ((float)row + 0.5f) / (float)rows),
+            harmonics(vtEnvironmentDirection(((float)column + 0.5f) / (float)side,
+                                             ((float)row + 0.5f) / (float)rows),
                       values);
             for (int i = 0; i < 9; ++i) {
                 sums[i][0] += (double)(light.x * values[i]);

@@ -19,11 +19,6 @@
 #include "mesh/mesh_triangle.h"
 #include "shaders_es3/common/constants.h"
 
-static vtVec3 multiply(vtVec3 a, vtVec3 b)
-{
-    return (vtVec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 static vtVec3 mix(vtVec3 a, vtVec3 b, float t)
 {
     return vtMulAdd(vtScale(a, 1.0f - t), t, b);
@@ -192,8 +187,8 @@ vtLook vtLookAt(const vtScene* scene, const vtPlacedObject* object, uint32_t tri
                                  color.z * base.b * corner.color.b},
                         2.0f * vtFract(0.5f * squares) > 0.5f ? 0.15f : 1.0f), // odd
         .coverage = coverageOf(m, m->alpha * base.a * corner.color.a),
-        .emissive = multiply(m->emissive, (vtVec3){light.r, light.g, light.b}),
-        .specularColor = multiply(m->specularColor, (vtVec3){glossy.r, glossy.g, glossy.b}),
+        .emissive = vtMultiply(m->emissive, (vtVec3){light.r, light.g, light.b}),
+        .specularColor = vtMultiply(m->specularColor, (vtVec3){glossy.r, glossy.g, glossy.b}),
         .specular = m->specular * readMap(scene, m, vt_mapSpecular, at).a,
         .metallic = m->metallic * share.b,
         .roughness = vtMaterial_Roughness(m, -1.0f) * share.g,
@@ -335,7 +330,7 @@ static vtVec3 lightOfLight(const vtLight* light, vtVec3 position, vtVec3 N, vtVe
                             nv * sqrtf(nl * nl * (1.0f - a * a) + a * a) + 1e-6f);
     const vtVec3 F = mix(F0, grey(F90), powf(1.0f - vh, 5.0f));
     const vtVec3 sent = vtMulAdd(vtScale(matt, 1.0f / VT_PI), D * G, F);
-    return vtScale(multiply(light->color, sent), fade * cone * cone * nl);
+    return vtScale(vtMultiply(light->color, sent), fade * cone * cone * nl);
 }
 
 vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, vtVec3 N, vtVec3 I,
@@ -358,9 +353,9 @@ vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, 
             share = mix(share, filmReflectance(cosine, look, F0), look->film);
         }
         const vtVec3 diffuse =
-            vtScale(multiply(look->base, vtLighting_Diffuse(illumination->lighting, N)), matt);
-        const vtVec3 specular =
-            vtScale(multiply(vtLighting_Specular(illumination->lighting, R, look->roughness), share), glossy);
+            vtScale(vtMultiply(look->base, vtLighting_Diffuse(illumination->lighting, N)), matt);
+        const vtVec3 specular = vtScale(
+            vtMultiply(vtLighting_Specular(illumination->lighting, R, look->roughness), share), glossy);
         light = vtMulAdd(light, look->occlusion, vtAdd(diffuse, specular));
     }
     const float smooth = matt + look->passes;

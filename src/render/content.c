@@ -29,12 +29,18 @@ static vtResult beginChange(vtRenderer* renderer, const void* thing, const char*
     return result;
 }
 
+/// What was computed of the content before: the samples, and what falls on the ground.
+static void forgetDrawn(vtRenderer* renderer)
+{
+    renderer->sampleEnd = 0;
+    renderer->ground.isStale = true;
+}
+
 static vtResult endChange(vtRenderer* renderer, vtResult result, vtError* error)
 {
     vtLeaveState(&renderer->gl);
     if (result == vt_ok) {
-        renderer->sampleEnd = 0;
-        renderer->ground.isStale = true;
+        forgetDrawn(renderer);
         return vtSucceed(error);
     }
     return result;
@@ -341,8 +347,7 @@ vtResult vtRenderer_AddInstance(vtRenderer* renderer, const vtInstanceDef* def, 
         return result;
     }
     vtSlots_Add(&renderer->instanceSlots, at, &id->index1, &id->generation);
-    renderer->sampleEnd = 0;
-    renderer->ground.isStale = true;
+    forgetDrawn(renderer);
     return vtSucceed(error);
 }
 
@@ -369,8 +374,7 @@ vtResult vtRenderer_SetInstance(vtRenderer* renderer, vtInstanceId id, const vtI
     renderer->scene.instances[at] = object;
     renderer->scene.materials[at] = def->material;
     renderer->scene.isStale = true;
-    renderer->sampleEnd = 0;
-    renderer->ground.isStale = true;
+    forgetDrawn(renderer);
     return vtSucceed(error);
 }
 
@@ -400,8 +404,7 @@ vtResult vtRenderer_RemoveInstance(vtRenderer* renderer, vtInstanceId id, vtErro
         return result;
     }
     removeInstance(renderer, at);
-    renderer->sampleEnd = 0;
-    renderer->ground.isStale = true;
+    forgetDrawn(renderer);
     return vtSucceed(error);
 }
 
@@ -462,7 +465,6 @@ vtResult vtRenderer_SetGround(vtRenderer* renderer, const vtGround* ground, vtEr
     }
     renderer->ground.isThere = ground != NULL;
     renderer->ground.ground = ground != NULL ? *ground : vtDefaultGround();
-    renderer->ground.isStale = true;
-    renderer->sampleEnd = 0;
+    forgetDrawn(renderer);
     return vtSucceed(error);
 }

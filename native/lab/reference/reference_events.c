@@ -38,11 +38,6 @@ static const float leastAlpha = 1e-4f;
 /// What a path's parts are told apart by.
 enum { partThrough = 1, partMirrored, partBeside, partGreen, partBlue };
 
-static vtVec3 multiply(vtVec3 a, vtVec3 b)
-{
-    return (vtVec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 static float largest(vtVec3 v)
 {
     return fmaxf(fmaxf(fabsf(v.x), fabsf(v.y)), fabsf(v.z)); // light of one wavelength has parts below 0
@@ -139,7 +134,7 @@ static void look(const vtReference* reference, const vtPathRules* rules, vtRefer
         const vtVec3 N = vtScale(vtDot(vtScale(seen->N, side), I) < 0.0f ? seen->N : seen->G, side);
         const vtVec3 sent =
             vtLook_SentLight(seen, rules->illumination, N, I, vtSurfacePoint(object, hit), rules->exposure);
-        path->light = vtMulAdd(path->light, seen->coverage, multiply(path->weight, sent));
+        path->light = vtMulAdd(path->light, seen->coverage, vtMultiply(path->weight, sent));
     }
 }
 
@@ -300,7 +295,7 @@ static void crossSmooth(const Crossing* crossing, vtVec3 share, Ways* ways)
     const vtVec3 F = reflected ? (vtVec3){1.0f, 1.0f, 1.0f} : reflectance(crossing, -vtDot(crossing->N, I));
     const vtVec3 R = reflected ? T : mirror(I, crossing->N);
     ways->total = reflected;
-    ways->mirrored.weight = multiply(share, F);
+    ways->mirrored.weight = vtMultiply(share, F);
     ways->mirrored.direction = reflected || vtDot(R, G) > 0.0f ? R : mirror(I, G);
     ways->through.weight = vtSub(share, ways->mirrored.weight);
     ways->through.direction = T;
@@ -321,10 +316,11 @@ static void leaveFacets(const Crossing* crossing, float alpha, float left, uint3
                                               : (vtVec3){0.0f, 0.0f, 0.0f};
         const float share = (F.x + F.y + F.z) / 3.0f;
         if (!passes || vtChance_Next(&row) < share) {
-            *weight = multiply(*weight, vtScale(F, 1.0f / share));
+            *weight = vtMultiply(*weight, vtScale(F, 1.0f / share));
             vtFacetRay_Mirror(ray, N);
         } else {
-            *weight = multiply(*weight, vtScale(vtSub((vtVec3){1.0f, 1.0f, 1.0f}, F), 1.0f / (1.0f - share)));
+            *weight =
+                vtMultiply(*weight, vtScale(vtSub((vtVec3){1.0f, 1.0f, 1.0f}, F), 1.0f / (1.0f - share)));
             *ray = beyond;
         }
         left = vtChance_Next(&row);
@@ -356,7 +352,7 @@ static void sendFromFacets(const Crossing* crossing, const vtVec3 axes[2], float
     way->direction = toWorld(crossing, axes, ray->direction, way->through);
     way->straight = false;
     if (way->through) {
-        way->weight = multiply(way->weight, crossing->seen.base);
+        way->weight = vtMultiply(way->weight, crossing->seen.base);
     }
 }
 
@@ -381,7 +377,7 @@ static void crossRough(const Crossing* crossing, const vtPathRules* rules, uint3
     const vtVec3 F =
         ways->total ? (vtVec3){1.0f, 1.0f, 1.0f} : reflectance(crossing, -vtDot(M, ray.direction));
     vtFacetRay_Mirror(&ray, M);
-    ways->mirrored.weight = multiply(share, F);
+    ways->mirrored.weight = vtMultiply(share, F);
     ways->through.weight = vtSub(share, ways->mirrored.weight);
     const vtMedia media[2] = {ways->mirrored.within, ways->through.within};
     if (crossing->thin) {
@@ -438,7 +434,7 @@ bool vtMeetGlass(const vtReference* reference, const vtPathRules* rules, vtRefer
     } else {
         crossSmooth(&crossing, share, &ways);
         ways.through.weight =
-            indices->isInterface ? multiply(ways.through.weight, seen->base) : ways.through.weight;
+            indices->isInterface ? vtMultiply(ways.through.weight, seen->base) : ways.through.weight;
     }
     Way beside = {.weight = vtScale(path->weight, 1.0f - seen->coverage),
                   .direction = path->direction,
@@ -515,7 +511,7 @@ void vtPartLight(const vtPathRules* rules, vtReferencePath* path, const vtRefere
         vtVec3 color;
         vtChance_Pair(path->key, vt_chanceWave, rules->sample, at);
         path->spread = vtSpectrum_At(rules->spectrum, at[0], &color);
-        path->weight = multiply(path->weight, color);
+        path->weight = vtMultiply(path->weight, color);
         path->parted = true;
         return;
     }

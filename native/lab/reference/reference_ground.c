@@ -3,10 +3,10 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "lab/reference/reference_scene.h"
+#include "lab/reference/reference_threads.h"
 
 /// Rays along a side of their square.
 enum { shadeAcross = 1024, sunPhotons = 1536, skyPhotons = 768, seed = 0x1e3779b9 };
@@ -121,17 +121,10 @@ static bool followRays(const vtReference* reference, const vtPathRules* rules, i
     if (pthread_mutex_init(&job.lock, NULL) != 0) {
         return false;
     }
-    const long processors = threads > 0 ? threads : sysconf(_SC_NPROCESSORS_ONLN);
-    pthread_t started[VT_MAX_THREADS];
-    int count = 0;
-    while (count < processors - 1 && count < VT_MAX_THREADS &&
-           pthread_create(&started[count], NULL, workGround, &job) == 0) {
-        ++count;
-    }
+    vtThreads others;
+    vtStartThreads(&others, threads, workGround, &job);
     workGround(&job);
-    while (count > 0) {
-        pthread_join(started[--count], NULL);
-    }
+    vtJoinThreads(&others);
     pthread_mutex_destroy(&job.lock);
     return !atomic_load(&job.failed);
 }

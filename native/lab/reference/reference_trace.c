@@ -1,10 +1,8 @@
 // Pictures of the reference: pixels in tiles, tiles shared out among threads.
 #include <assert.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "base/math.h"
@@ -12,6 +10,7 @@
 #include "lab/reference/reference_chance.h"
 #include "lab/reference/reference_scene.h"
 #include "lab/reference/reference_spectrum.h"
+#include "lab/reference/reference_threads.h"
 #include "scene/camera.h"
 #include "scene/material.h"
 
@@ -224,18 +223,10 @@ static void* runThread(void* job)
 
 static void runJob(Job* job)
 {
-    const long processors = job->def->threads > 0 ? job->def->threads : sysconf(_SC_NPROCESSORS_ONLN);
-    const int wanted = (int)vtClamp((float)processors, 1.0f, (float)VT_MAX_THREADS);
-    pthread_t threads[VT_MAX_THREADS];
-    int started = 0;
-    // A thread that cannot be had is done without: the others take its tiles.
-    while (started < wanted - 1 && pthread_create(&threads[started], NULL, runThread, job) == 0) {
-        ++started;
-    }
+    vtThreads threads;
+    vtStartThreads(&threads, job->def->threads, runThread, job);
     work(job, true);
-    while (started > 0) {
-        pthread_join(threads[--started], NULL);
-    }
+    vtJoinThreads(&threads);
     if (job->def->progress != NULL) {
         job->def->progress(1.0f, job->def->userData);
     }
