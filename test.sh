@@ -2,7 +2,8 @@
 # Installs what is missing, builds everything and passes every test. Exit code 0: all passed.
 #   ./test.sh         about a quarter of an hour
 #   ./test.sh --all   also what is long: nothing left out under sanitizers, deliberate faults that tests must see, ten
-#                     minutes of hostile glTF files, the browser's picture against its rivals'
+#                     minutes of hostile glTF files, films, job files of schedulers, the browser's picture against its
+#                     rivals'
 set -eu
 cd "$(dirname "$0")"
 
@@ -10,11 +11,15 @@ all=false
 case ${1:-} in
   "") ;;
   --all) all=true ;;
-  --help | -h) sed -n '2,5s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  --help | -h) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) echo "test.sh: unknown option '$1'; it takes --all" >&2; exit 1 ;;
 esac
 
-bash scripts/dependencies.sh
+if $all; then
+  bash scripts/dependencies.sh --all
+else
+  bash scripts/dependencies.sh
+fi
 
 echo "== native, release"
 cmake --preset release -DBUILD_TESTING=ON >/dev/null
@@ -49,6 +54,9 @@ if $all; then
   else
     echo "== hostile glTF files: left out, clang is not installed"
   fi
+  echo "== job files of schedulers"
+  npm --prefix tests/many-machines install --no-audit --no-fund --loglevel=error
+  node --test tests/many-machines/many-machines.test.mjs
   if command -v emcmake >/dev/null; then
     echo "== the browser's picture against its rivals'"
     npm --prefix tests/bench install --no-audit --no-fund --loglevel=error

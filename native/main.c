@@ -1,3 +1,5 @@
+#include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,7 +12,10 @@ static void printUsage(void)
     printf(
         "vitrine: glass through OpenGL ES 3.0, with every refraction and internal reflection\n"
         "\n"
-        "  vitrine render MODEL -o OUT.png [options]   draw a picture, no screen needed\n"
+        "  vitrine render MODEL -o OUT.png [options]   draw a picture, no screen needed; or many: a film of "
+        "what\n"
+        "                                              moves, all frames of it, a picture of each of many "
+        "models\n"
         "  vitrine ladder MODEL [options]              every technique beside the reference, with its error\n"
         "  vitrine bench MODEL [options]               time, memory and accuracy beside the reference\n"
         "  vitrine rays RELIEF [options]               its heights traced beside Embree's triangles\n"
@@ -137,7 +142,7 @@ static int runList(int count, char** words)
     return 1;
 }
 
-int main(int argc, char** argv)
+static int run(int argc, char** argv)
 {
     const char* command = argc > 1 ? argv[1] : "";
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; ++i) {
@@ -166,4 +171,17 @@ int main(int argc, char** argv)
         fprintf(stderr, "vitrine: unknown command '%s'; see 'vitrine --help'\n", command);
     }
     return 1;
+}
+
+int main(int argc, char** argv)
+{
+    // What can no longer be written is an error with its reason, not the end of the program.
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+    const int code = run(argc, argv);
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "vitrine: standard output cannot be written: %s\n", strerror(errno));
+        return 1;
+    }
+    return code;
 }

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Installs what is missing to build and test: Debian/Ubuntu packages, then the tests' npm packages. Says
-# plainly what cannot be installed and goes on: the build leaves out what it can do without. Source it or
-# run it; quick when nothing is missing.
+# plainly what cannot be installed and goes on: the build leaves out what it can do without. Quick when nothing
+# is missing.
+#   scripts/dependencies.sh         what ./demo.sh and ./test.sh need
+#   scripts/dependencies.sh --all   what ./test.sh --all runs, too: films, schedulers
 set -u
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
@@ -11,6 +13,8 @@ needed=(build-essential cmake ninja-build pkg-config libgles-dev libegl-dev libg
 # Without one of these a part is left out: its name, and what it is for.
 optional=(libosmesa6-dev libglfw3-dev libembree-dev emscripten python3 xvfb xauth chromium clang-format)
 optional+=(libdraco-dev libmeshoptimizer-dev) # packed geometry in glTF files
+
+if [ "${1:-}" = --all ]; then optional+=(ffmpeg parallel slurm-wlm); fi
 
 installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q '^install ok installed$'; }
 

@@ -702,6 +702,10 @@ typedef struct vtFrame {
     int x, y;             ///< lower left corner of the picture in it, pixels, -16384 to 16384; default 0, 0
     /// Linear light, not cut at white, in place of sRGB: for a framebuffer of floats. Default false
     bool linear;
+    /// With firstSample above 0: what has changed since the frame before, the view or the scene, is motion.
+    /// The samples there are stay in the mean (motion blur); the picture must be as large as before, and of
+    /// the same technique. Default false
+    bool moving;
     /// The view as GL's matrices, column-major, in place of `view`: from the world to the eye (a rotation and
     /// a shift), and from there to clip coordinates: perspective, off-axis too, or orthographic (techniques
     /// that peel no layers). Both or none; NULL, the default: `view`

@@ -1,5 +1,6 @@
 #define _XOPEN_SOURCE 700 // realpath
 #include "cli/files.h"
+#include "cli/hash.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -121,7 +122,11 @@ vtResult vtReadFileForModel(const char* path, size_t limit, uint8_t** bytes, siz
                       "with --root",
                       resolved);
     }
-    return readPlain(resolved, limit, bytes, size, error);
+    const vtResult result = readPlain(resolved, limit, bytes, size, error);
+    if (result == vt_ok && folders->contents != NULL) {
+        *folders->contents = vtHash(*folders->contents, *bytes, *size);
+    }
+    return result;
 }
 
 vtResult vtFindModelFolders(const char* model, const char* root, vtModelFolders* folders, vtError* error)
@@ -139,49 +144,4 @@ vtResult vtFindModelFolders(const char* model, const char* root, vtModelFolders*
         return vtFail(error, vt_errorFile, "--root '%.200s' cannot be found: %s", root, strerror(errno));
     }
     return vt_ok;
-}
-
-static bool isRegularOrNew(const char* path)
-{
-    struct stat status;
-    return stat(path, &status) != 0 || S_ISREG(status.st_mode);
-}
-
-vtResult vtWriteFile(const char* path, const void* bytes, size_t size, vtError* error)
-{
-    bool toStdout = strcmp(path, "-") == 0;
-    bool direct = toStdout || !isRegularOrNew(path); // a device or a pipe is written as it is
-    char part[4096];
-    if (snprintf(part, sizeof part, direct ? "%s" : "%s.part", path) >= (int)sizeof part) {
-        return vtFail(error, vt_errorFile, "file '%.200s...': the path is too long", path);
-    }
-    FILE* stream = toStdout ? stdout : fopen(part, "wb");
-    if (stream == NULL) {
-        return vtFail(error, vt_errorFile, "file '%s' cannot be written: %s", path, strerror(errno));
-    }
-    bool written = fwrite(bytes, 1, size, stream) == size;
-    written = (toStdout ? fflush(stream) : fclose(stream)) == 0 && written;
-    if (written && (direct || rename(part, path) == 0)) {
-        return vtSucceed(error);
-    }
-    int reason = errno;
-    if (!direct) {
-        unlink(part);
-    }
-    return vtFail(error, vt_errorFile, "file '%s' cannot be written: %s", path, strerror(reason));
-}
-
-vtResult vtWritePrinted(const char* path, vtPrintFcn* print, const void* data, vtError* error)
-{
-    char* text = NULL;
-    size_t size = 0;
-    FILE* memory = open_memstream(&text, &size);
-    if (memory == NULL) {
-        return vtFail(error, vt_errorMemory, "file '%s': out of memory", path);
-    }
-    print(data, memory);
-    fclose(memory);
-    const vtResult result = vtWriteFile(path, text, size, error);
-    free(text);
-    return result;
 }

@@ -8,9 +8,29 @@
 /// caller's to free.
 vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* error);
 
-/// Writes a whole file ("-": standard output). The file appears complete or not at all: it is written
-/// beside its place and renamed, so that an older one stays where something fails.
+/// Writes a whole file ("-": standard output; a device or a pipe as it is). The file appears complete or not
+/// at all, as vtBeginFile has it, so that an older one stays where something fails.
 vtResult vtWriteFile(const char* path, const void* bytes, size_t size, vtError* error);
+
+/// A file that is being written beside its place, under a name that nobody can foretell.
+typedef struct vtUnfinishedFile {
+    int descriptor;   ///< open for writing; -1: there is none
+    char path[4096];  ///< the name that it has meanwhile: the place, digits, an ending
+    char place[4096]; ///< where it goes: links are followed
+} vtUnfinishedFile;
+
+/// Begins one for `path`, with the permissions of the file that is there, if any. `ending`: of its name
+/// meanwhile, for programs that go by it.
+vtResult vtBeginFile(const char* path, const char* ending, vtUnfinishedFile* file, vtError* error);
+
+/// Makes the folders of a path that are not there. Fails with vt_errorFile and the reason.
+vtResult vtMakeFolders(const char* path, vtError* error);
+
+/// Puts what has been written on the disk and then into its place. On failure nothing of it is left.
+vtResult vtFinishFile(vtUnfinishedFile* file, vtError* error);
+
+/// Nothing of it is left. Safe after vtFinishFile.
+void vtDropFile(vtUnfinishedFile* file);
 
 /// Writes what `print` prints of `data` in the same way.
 typedef void vtPrintFcn(const void* data, FILE* out);
@@ -20,6 +40,7 @@ vtResult vtWritePrinted(const char* path, vtPrintFcn* print, const void* data, v
 typedef struct vtModelFolders {
     char directory[4096]; ///< its own
     char root[4096];      ///< of --root; empty: none
+    uint64_t* contents;   ///< the hash of what is read is added to it; NULL: it is not
 } vtModelFolders;
 
 /// Of the file `model` ("-": the current folder) and --root, NULL where that is not given.

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "cli/files.h"
+#include "cli/hash.h"
 #include "cli/object_help.h"
 #include "cli/object_image.h"
 #include "cli/relief_input.h"
@@ -30,7 +31,8 @@ static bool isShape(const char* name)
     return vtShapeName(i) != NULL;
 }
 
-static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vtError* error)
+static vtResult loadEnvironment(const char* name, vtEnvironment* environment, uint64_t* contents,
+                                vtError* error)
 {
     // Built-in names hold neither a dot nor a slash.
     if (strpbrk(name, "./") == NULL) {
@@ -40,6 +42,7 @@ static vtResult loadEnvironment(const char* name, vtEnvironment* environment, vt
     size_t size;
     vtResult result = vtReadFile(name, &bytes, &size, error);
     if (result == vt_ok) {
+        *contents = vtHash(*contents, bytes, size);
         result = vtLoadEnvironment(bytes, size, name, environment, error);
         vtFree(bytes);
     }
@@ -60,6 +63,7 @@ typedef struct Named {
     const vtOptions* options;
     const vtObjectSpec* spec;
     const char* name;
+    uint64_t* contents; ///< the hash of what is read is added to it
 } Named;
 
 static vtResult checkKind(const Named* named, vtObjectKind kind, vtError* error)
@@ -89,6 +93,7 @@ static vtResult loadModel(const Named* named, const void* bytes, size_t size, vt
         return result;
     }
     result = vtFindModelFolders(named->name, named->options->root, &folders, error);
+    folders.contents = named->contents;
     const vtModelDef def = {.bytes = bytes,
                             .size = size,
                             .name = named->name,
@@ -113,6 +118,7 @@ static vtResult loadFile(const Named* named, vtScene* scene, vtError* error)
     if (result != vt_ok) {
         return result;
     }
+    *named->contents = vtHash(*named->contents, bytes, size);
     const bool isRelief = vtIsPicture(bytes, size);
     result = checkKind(named, isRelief ? vt_kindReliefFile : vt_kindMesh, error);
     if (result == vt_ok && isRelief) {
@@ -237,6 +243,9 @@ static vtResult failUnknown(const char* what, const char* name, vtError* error)
 static vtResult loadNamed(const Named* named, vtScene* scene, vtError* error)
 {
     const int pattern = vtFindReliefPattern(named->name);
+    if (pattern >= 0 || isShape(named->name)) {
+        *named->contents = vtHashText(*named->contents, named->name);
+    }
     if (pattern >= 0) {
         const vtResult result = checkKind(named, vt_kindReliefPattern, error);
         const vtReliefDef def = vtMakeReliefDef(named->options, named->spec, pattern);
@@ -250,7 +259,8 @@ static vtResult loadNamed(const Named* named, vtScene* scene, vtError* error)
 }
 
 /// Loads what one --object names and puts it into the scene.
-static vtResult addObject(const vtOptions* options, const char* text, vtScene* scene, vtError* error)
+static vtResult addObject(const vtOptions* options, const char* text, vtScene* scene, uint64_t* contents,
+                          vtError* error)
 {
     vtObjectSpec spec;
     vtScene added = {0};
@@ -264,10 +274,10 @@ static vtResult addObject(const vtOptions* options, const char* text, vtScene* s
         snprintf(what, sizeof what, "--object '%.200s':", text);
         return failUnknown(what, spec.name, error);
     }
-    result = loadNamed(&(Named){options, &spec, spec.name}, &added, error);
+    result = loadNamed(&(Named){options, &spec, spec.name, contents}, &added, error);
     if (result == vt_ok) {
         vtObjectSpec_Apply(&spec, &added);
-        result = spec.image[0] != '\0' ? vtAddObjectImage(spec.image, &added, error) : vt_ok;
+        result = spec.image[0] != '\0' ? vtAddObjectImage(spec.image, &added, contents, error) : vt_ok;
     }
     if (result == vt_ok) {
         printNotes(spec.name, &added, options->verbose);
@@ -278,7 +288,7 @@ static vtResult addObject(const vtOptions* options, const char* text, vtScene* s
     return result;
 }
 
-static vtResult loadMain(const vtOptions* options, vtScene* scene, vtError* error)
+static vtResult loadMain(const vtOptions* options, vtScene* scene, uint64_t* contents, vtError* error)
 {
     const char* model = options->model;
     if (model == NULL && options->objectCount == 0) {
@@ -298,17 +308,17 @@ static vtResult loadMain(const vtOptions* options, vtScene* scene, vtError* erro
     if (!isBuiltIn && strpbrk(model, "./-") == NULL && access(model, R_OK) != 0) {
         return failUnknown("model", model, error);
     }
-    return loadNamed(&(Named){options, NULL, model}, scene, error);
+    return loadNamed(&(Named){options, NULL, model, contents}, scene, error);
 }
 
-static vtResult loadObjects(const vtOptions* options, vtScene* scene, vtError* error)
+static vtResult loadObjects(const vtOptions* options, vtScene* scene, uint64_t* contents, vtError* error)
 {
-    vtResult result = loadMain(options, scene, error);
+    vtResult result = loadMain(options, scene, contents, error);
     if (result == vt_ok && options->model != NULL) {
         printNotes(options->model, scene, options->verbose);
     }
     for (int i = 0; i < options->objectCount && result == vt_ok; ++i) {
-        result = addObject(options, options->objects[i], scene, error);
+        result = addObject(options, options->objects[i], scene, contents, error);
     }
     return result;
 }
@@ -371,7 +381,7 @@ static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError*
 }
 
 /// The picture that a background names, if it does.
-static vtResult loadBackground(const char* text, vtImage* picture, vtError* error)
+static vtResult loadBackground(const char* text, vtImage* picture, uint64_t* contents, vtError* error)
 {
     vtFrame frame = vtDefaultFrame();
     uint8_t* bytes;
@@ -382,27 +392,43 @@ static vtResult loadBackground(const char* text, vtImage* picture, vtError* erro
     }
     result = vtReadFile(text, &bytes, &size, error);
     if (result == vt_ok) {
+        *contents = vtHash(*contents, bytes, size);
         result = vtDecodeImage(bytes, size, text, picture, error);
         vtFree(bytes);
     }
     return result;
 }
 
+vtResult vtSetInputModel(const vtOptions* options, vtInput* input, vtError* error)
+{
+    vtScene scene = {0};
+    uint64_t contents = VT_NO_HASH;
+    vtResult result = loadObjects(options, &scene, &contents, error);
+    if (result == vt_ok) {
+        result = vtValidateScene(&scene, error);
+    }
+    if (result == vt_ok) {
+        result = prepareMeshes(options, &scene, error);
+    }
+    if (result != vt_ok) {
+        vtDestroyScene(&scene);
+        return result;
+    }
+    vtDestroyScene(&input->scene);
+    input->scene = scene;
+    input->contents = contents;
+    return vtSucceed(error);
+}
+
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
 {
-    *input = (vtInput){.ior = options->frame.ior};
-    vtResult result = loadObjects(options, &input->scene, error);
+    *input = (vtInput){.ior = options->frame.ior, .surroundings = VT_NO_HASH};
+    vtResult result = vtSetInputModel(options, input, error);
     if (result == vt_ok) {
-        result = vtValidateScene(&input->scene, error);
-    }
-    if (result == vt_ok) {
-        result = loadEnvironment(options->environment, &input->environment, error);
+        result = loadEnvironment(options->environment, &input->environment, &input->surroundings, error);
     }
     if (result == vt_ok && options->background != NULL) {
-        result = loadBackground(options->background, &input->background, error);
-    }
-    if (result == vt_ok) {
-        result = prepareMeshes(options, &input->scene, error);
+        result = loadBackground(options->background, &input->background, &input->surroundings, error);
     }
     if (result != vt_ok) {
         vtDestroyInput(input);

@@ -6,12 +6,16 @@
 typedef struct vtInput {
     vtScene scene;
     vtEnvironment environment;
-    vtImage background; ///< its pixels NULL: no picture
-    float ior;          ///< of the command line; 0: each object's own
+    vtImage background;    ///< its pixels NULL: no picture
+    float ior;             ///< of the command line; 0: each object's own
+    uint64_t contents;     ///< hash of the scene's files, see cli/hash.h
+    uint64_t surroundings; ///< and of those of environment and background
 } vtInput;
 
 /// Loads models and environment, prints notes (computed normals) and warnings (an open mesh) to stderr.
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error);
+/// Loads another model in the scene's place; on failure the one before stays.
+vtResult vtSetInputModel(const vtOptions* options, vtInput* input, vtError* error);
 void vtDestroyInput(vtInput* input);
 
 /// The index of refraction that all glass is drawn with; 0 where objects differ, or none is glass.

@@ -3,15 +3,17 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "cli/files.h"
+#include "cli/hash.h"
 #include "image/image.h"
 
-vtResult vtAddObjectImage(const char* path, vtScene* scene, vtError* error)
+vtResult vtAddObjectImage(const char* path, vtScene* scene, uint64_t* contents, vtError* error)
 {
     uint8_t* bytes;
     size_t size;
     vtImage image = {0};
     vtResult result = vtReadFile(path, &bytes, &size, error);
     if (result == vt_ok) {
+        *contents = vtHash(*contents, bytes, size);
         result = vtDecodeImage(bytes, size, path, &image, error);
         vtFree(bytes);
     }

@@ -2,5 +2,6 @@
 
 #include "vitrine.h"
 
-/// A picture from a file as the base colour of all of the scene's materials that are opaque.
-vtResult vtAddObjectImage(const char* path, vtScene* scene, vtError* error);
+/// A picture from a file as the base colour of all of the scene's materials that are opaque. The hash of what
+/// is read is added to *contents.
+vtResult vtAddObjectImage(const char* path, vtScene* scene, uint64_t* contents, vtError* error);

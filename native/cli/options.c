@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "cli/hash.h"
 #include "cli/object_help.h"
 #include "cli/setting_options.h"
 #include "lab/metrics/timing.h"
@@ -61,9 +62,31 @@ static const Option table[] = {
     {"variant", 0, kindText, AT(variant), 0, 0, "NAME", "of the files' variants of their materials (none)",
      SCENE},
     {"output", 'o', kindText, AT(output), 0, 0, "FILE",
-     "the picture: PNG, or by its name's end linear light, .exr or .hdr; - is standard output, PNG", RENDER},
+     "the picture: PNG, or by its name's end linear light, .exr or .hdr; - is standard output, PNG. Of "
+     "several "
+     "{name} is the model's and {frame} the number; .mp4, .mov, .mkv, .webm: a film, by ffmpeg",
+     RENDER},
     {"output", 'o', kindText, AT(output), 0, 0, "FILE", "the picture, PNG; - is standard output", LADDER},
     {"bits", 0, kindInteger, AT(bits), 8, 16, "N", "of a PNG's numbers, 8 or 16 (8)", RENDER},
+    {"list", 0, kindText, AT(list), 0, 0, "FILE",
+     "the models, a line each, a picture of each; - is standard input", RENDER},
+    {"turntable", 0, kindInteger, AT(turntable), 1, 100000, "N", "a turn about the upright axis in N frames",
+     RENDER},
+    {"camera-keys", 0, kindText, AT(cameraKeys), 0, 0, "FILE",
+     "the eye moves: lines SECONDS X,Y,Z X,Y,Z [DEGREES], the eye, what it looks at, its field of view",
+     RENDER},
+    {"frames", 0, kindText, AT(frameRange), 0, 0, "A:B",
+     "the first and the last, counted from 0 (all there are)", RENDER},
+    {"fps", 0, kindNumber, AT(fps), 0.01, 1000, "N", "frames a second (24)", RENDER},
+    {"shutter", 0, kindNumber, AT(shutter), 0, 1, "N",
+     "motion blur: the samples are spread over this share of a frame's time (0)", RENDER},
+    {"part", 0, kindText, AT(part), 0, 0, "I/N",
+     "of the pictures part I of N, from 1 on; auto/N: I by Slurm, Kubernetes or GNU parallel (by a job array "
+     "of "
+     "Slurm, else 1/1)",
+     RENDER},
+    {"redraw", 0, kindFlag, AT(redraw), 0, 0, NULL, "draw again what is there, whole and of the same options",
+     RENDER},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID", "see 'vitrine list' (exact)", RENDER | VIEW},
     {"technique", 't', kindText, AT(technique), 0, 0, "ID,ID,...",
      "see 'vitrine list' (" VT_BENCH_TECHNIQUES ", of a relief " VT_RELIEF_TECHNIQUE
@@ -232,6 +255,18 @@ static vtResult store(const Option* option, char* value, vtOptions* options, vtE
     }
 }
 
+/// Does a picture of a series depend on it? What files hold is looked at as well, whatever their names.
+static bool isOfPicture(const Option* option)
+{
+    static const char* const others[] = {"output", "list",   "camera-keys", "frames",
+                                         "part",   "redraw", "verbose",     "help"};
+    bool is = true;
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i) {
+        is = is && strcmp(option->name, others[i]) != 0;
+    }
+    return is;
+}
+
 vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* options, vtError* error)
 {
     const vtFrame frame = vtDefaultFrame();
@@ -243,6 +278,8 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         .backend = "auto",
         .samples = command == vt_commandView ? 64 : 1,
         .referenceThreshold = 0.05f,
+        .fps = 24.0f,
+        .stamp = vtHashText(VT_NO_HASH, VT_VERSION),
         .relief = -1.0f,
         .slab = -1.0f,
         .smooth = -1.0f,
@@ -290,14 +327,18 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         if (result != vt_ok) {
             return result;
         }
+        if (isOfPicture(option)) {
+            options->stamp = vtHashText(options->stamp, option->name);
+            options->stamp = vtHashText(options->stamp, optarg != NULL ? optarg : "");
+        }
     }
-    if (optind < count) {
-        options->model = words[optind++];
-    }
-    if (optind < count) {
+    options->models = (const char* const*)&words[optind];
+    options->modelCount = count - optind;
+    options->model = optind < count ? words[optind] : NULL;
+    if (command != vt_commandRender && options->modelCount > 1) {
         return vtFail(error, vt_errorArgument,
                       "one model is named by itself; '%s' is a second one, add it with --object",
-                      words[optind]);
+                      options->models[1]);
     }
     if (options->fresnelGiven && options->noFresnel) {
         return vtFail(error, vt_errorArgument, "--fresnel and --no-fresnel contradict each other; give one");

@@ -18,7 +18,17 @@
 typedef struct vtOptions {
     vtFrame frame; ///< the settings, as given; vtMakeFrame adds what is told otherwise
     vtGroundOptions ground;
-    const char* model;
+    const char* model;         ///< the first of the models; NULL: there is none
+    const char* const* models; ///< of `render`, all of them
+    int modelCount;
+    const char* list;       ///< a file that names the models
+    const char* frameRange; ///< "A:B"
+    const char* cameraKeys; ///< a file
+    const char* part;       ///< "I/N" or "auto/N"
+    int turntable;          ///< frames of a turn; 0: it does not turn
+    float fps, shutter;     ///< frames a second; the share of a frame's time that light is gathered
+    bool redraw;            ///< a series' pictures, though they are there
+    uint64_t stamp;         ///< hash of the options that the picture depends on, as they are written
     const char* output;
     const char* environment;
     const char* background; ///< NULL: the environment

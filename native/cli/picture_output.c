@@ -48,8 +48,8 @@ static void toBytes(const float* rgba, bool isLinear, size_t count, uint8_t* pix
     }
 }
 
-static vtResult encodePng16(const float* rgba, const vtFrame* frame, uint8_t** bytes, size_t* size,
-                            vtError* error)
+static vtResult encodePng16(const float* rgba, const vtFrame* frame, const char* comment, uint8_t** bytes,
+                            size_t* size, vtError* error)
 {
     const size_t count = 4 * (size_t)frame->width * (size_t)frame->height;
     uint16_t* samples = malloc(count * sizeof *samples);
@@ -60,14 +60,15 @@ static vtResult encodePng16(const float* rgba, const vtFrame* frame, uint8_t** b
     for (size_t i = 0; i < count; ++i) {
         samples[i] = (uint16_t)(65535.0f * cut(rgba[i], 1.0f) + 0.5f);
     }
-    const vtResult result = vtEncodePng16(samples, 4, frame->width, frame->height, bytes, size, error);
+    const vtResult result =
+        vtEncodePngOf(samples, 4, 16, frame->width, frame->height, comment, bytes, size, error);
     free(samples);
     return result;
 }
 
 /// Linear light times alpha, which OpenEXR has beside it and HDR has not.
-static vtResult encodeLight(const float* rgba, vtPictureFormat format, const vtFrame* frame, uint8_t** bytes,
-                            size_t* size, vtError* error)
+static vtResult encodeLight(const float* rgba, vtPictureFormat format, const vtFrame* frame,
+                            const char* comment, uint8_t** bytes, size_t* size, vtError* error)
 {
     const bool isExr = format == vt_formatExr;
     const size_t count = (size_t)frame->width * (size_t)frame->height;
@@ -84,17 +85,17 @@ static vtResult encodeLight(const float* rgba, vtPictureFormat format, const vtF
         }
     }
     const vtResult result =
-        isExr ? vtEncodeExr(light, (int)channels, frame->width, frame->height, bytes, size, error)
-              : vtEncodeHdr(light, frame->width, frame->height, bytes, size, error);
+        isExr ? vtEncodeExr(light, (int)channels, frame->width, frame->height, comment, bytes, size, error)
+              : vtEncodeHdr(light, frame->width, frame->height, comment, bytes, size, error);
     free(light);
     return result;
 }
 
-vtResult vtEncodePicture(const float* rgba, vtPictureFormat format, const vtFrame* frame, uint8_t* pixels,
-                         uint8_t** bytes, size_t* size, vtError* error)
+vtResult vtEncodePicture(const float* rgba, vtPictureFormat format, const vtFrame* frame, const char* comment,
+                         uint8_t* pixels, uint8_t** bytes, size_t* size, vtError* error)
 {
     const bool isLinear = vtPictureFormat_IsLinear(format);
     toBytes(rgba, isLinear, (size_t)frame->width * (size_t)frame->height, pixels);
-    return isLinear ? encodeLight(rgba, format, frame, bytes, size, error)
-                    : encodePng16(rgba, frame, bytes, size, error);
+    return isLinear ? encodeLight(rgba, format, frame, comment, bytes, size, error)
+                    : encodePng16(rgba, frame, comment, bytes, size, error);
 }

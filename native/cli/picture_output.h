@@ -21,6 +21,6 @@ static inline bool vtPictureFormat_IsLinear(vtPictureFormat format)
 }
 
 /// Encodes 4 floats a pixel as vtRenderer_DrawFloats gives them, of a format of more than 8 bits. *bytes are
-/// vtFree's. `pixels`: where they go as 8 bits, too.
-vtResult vtEncodePicture(const float* rgba, vtPictureFormat format, const vtFrame* frame, uint8_t* pixels,
-                         uint8_t** bytes, size_t* size, vtError* error);
+/// vtFree's. `comment`: of the file, NULL: none. `pixels`: where they go as 8 bits, too.
+vtResult vtEncodePicture(const float* rgba, vtPictureFormat format, const vtFrame* frame, const char* comment,
+                         uint8_t* pixels, uint8_t** bytes, size_t* size, vtError* error);

@@ -5,15 +5,14 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/draw.h"
 #include "cli/files.h"
-#include "cli/picture_output.h"
-#include "cli/session.h"
+#include "cli/series.h"
 #include "cli/trace.h"
 #include "image/image.h"
 #include "image/pfm.h"
 #include "lab/metrics/metrics_image.h"
 #include "lab/metrics/metrics_map.h"
-#include "lab/metrics/timing.h"
 #include "technique/technique.h"
 
 /// A file to be written once everything has been drawn.
@@ -23,50 +22,7 @@ typedef struct Output {
     size_t size;
 } Output;
 
-enum { outputPicture, outputDirections, outputSheet, outputEvents, outputCount };
-
-/// `floats`: where they go, of a format that takes them.
-static vtResult drawPicture(vtRenderer* renderer, const vtFrame* frame, vtPictureFormat format, float* floats,
-                            uint8_t* pixels, Output* output, vtError* error)
-{
-    const bool showsProgress = frame->samples > 1 && isatty(STDERR_FILENO);
-    const double start = vtNow();
-    vtResult result = vt_ok;
-    // One sample at a time, each finished before the next.
-    vtFrame part = *frame;
-    part.samples = 1;
-    for (; part.firstSample < frame->samples && result == vt_ok; ++part.firstSample) {
-        bool last = part.firstSample == frame->samples - 1;
-        result = floats != NULL ? vtRenderer_DrawFloats(renderer, &part, last ? floats : NULL, error)
-                                : vtRenderer_DrawImage(renderer, &part, last ? pixels : NULL, error);
-        if (showsProgress) {
-            vtShowProgress("drawing", (float)(part.firstSample + 1) / (float)frame->samples, start);
-        }
-    }
-    if (result == vt_ok) {
-        result =
-            floats != NULL
-                ? vtEncodePicture(floats, format, frame, pixels, &output->bytes, &output->size, error)
-                : vtEncodePng(pixels, 4, frame->width, frame->height, &output->bytes, &output->size, error);
-    }
-    return result;
-}
-
-static vtResult drawInFormat(vtRenderer* renderer, const vtFrame* frame, vtPictureFormat format,
-                             uint8_t* pixels, Output* output, vtError* error)
-{
-    float* floats = NULL;
-    if (format != vt_formatPng) {
-        floats = malloc(4 * sizeof *floats * (size_t)frame->width * (size_t)frame->height);
-        if (floats == NULL) {
-            return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", frame->width,
-                          frame->height);
-        }
-    }
-    const vtResult result = drawPicture(renderer, frame, format, floats, pixels, output, error);
-    free(floats);
-    return result;
-}
+enum { outputDirections, outputSheet, outputEvents, outputCount };
 
 /// `fresnel`: with Fresnel reflection, where the frame has it.
 static vtResult readDirections(vtRenderer* renderer, const vtFrame* frame, bool fresnel, Output* output,
@@ -144,23 +100,29 @@ static void sayLayers(const vtFrame* frame, const vtRendererInfo* info)
     }
 }
 
-static vtResult drawAll(const vtOptions* options, const vtFrame* frame, vtPictureFormat format,
-                        const vtSession* session, uint8_t* pixels, Output* outputs, vtError* error)
+static void sayRenderer(const vtSession* session, const vtFrame* frame)
+{
+    const float ior = vtCommonIor(&session->input); // 0: there are several
+    const vtRendererInfo info = vtRenderer_Info(session->renderer);
+    fprintf(stderr, "vitrine: %s, %s\n", info.device, info.version);
+    if (ior > 0.0f) {
+        fprintf(stderr, "vitrine: ior %g\n", (double)ior);
+    }
+    fprintf(stderr, "vitrine: %.1f MB of textures, %.1f MB of mesh\n", (double)info.textureBytes / 1e6,
+            (double)info.meshBytes / 1e6);
+    sayLayers(frame, &info);
+}
+
+/// What else the renderer gives of the frame that was drawn.
+static vtResult readDrawn(const vtOptions* options, const vtFrame* frame, const vtSession* session,
+                          Output* outputs, vtError* error)
 {
     vtRenderer* renderer = session->renderer;
-    const float ior = vtCommonIor(&session->input); // 0: there are several
-    vtResult result = drawInFormat(renderer, frame, format, pixels, &outputs[outputPicture], error);
-    if (result == vt_ok && options->verbose) {
-        vtRendererInfo info = vtRenderer_Info(renderer);
-        fprintf(stderr, "vitrine: %s, %s\n", info.device, info.version);
-        if (ior > 0.0f) {
-            fprintf(stderr, "vitrine: ior %g\n", (double)ior);
-        }
-        fprintf(stderr, "vitrine: %.1f MB of textures, %.1f MB of mesh\n", (double)info.textureBytes / 1e6,
-                (double)info.meshBytes / 1e6);
-        sayLayers(frame, &info);
+    vtResult result = vt_ok;
+    if (options->verbose) {
+        sayRenderer(session, frame);
     }
-    if (result == vt_ok && options->directions != NULL) {
+    if (options->directions != NULL) {
         result = readDirections(renderer, frame, options->fresnelGiven, &outputs[outputDirections], error);
     }
     if (result == vt_ok && options->layerSheet != NULL) {
@@ -169,86 +131,60 @@ static vtResult drawAll(const vtOptions* options, const vtFrame* frame, vtPictur
     return result;
 }
 
-static vtResult rasterise(const vtOptions* options, vtFrame* frame, uint8_t** pixels, Output* outputs,
-                          vtError* error)
+/// What else the reference gives.
+static vtResult readTraced(const vtOptions* options, const vtReferenceImage* image, Output* outputs,
+                           vtError* error)
 {
-    if (options->events != NULL) {
+    Output *directions = &outputs[outputDirections], *events = &outputs[outputEvents];
+    vtResult result = vt_ok;
+    if (options->directions != NULL) {
+        result = vtEncodePfm(image->directions, image->width, image->height, &directions->bytes,
+                             &directions->size, error);
+    }
+    if (result == vt_ok && options->events != NULL) {
+        result =
+            vtEncodePng(image->events, 1, image->width, image->height, &events->bytes, &events->size, error);
+    }
+    return result;
+}
+
+/// What cannot be had of the technique.
+static vtResult checkOutputs(const vtOptions* options, vtError* error)
+{
+    if (vtIsReference(options) && options->layerSheet != NULL) {
+        return vtFail(error, vt_errorArgument, "layer sheet: technique 'reference' peels no layers");
+    }
+    if (!vtIsReference(options) && options->events != NULL) {
         return vtFail(error, vt_errorArgument,
                       "--events comes from the reference; add --technique reference");
     }
-    vtSession session;
-    vtPictureFormat format;
-    vtResult result = vtChoosePictureFormat(options, &format, error);
-    if (result != vt_ok) {
-        return result;
+    return vt_ok;
+}
+
+static vtResult drawAll(const vtOptions* options, vtFrame* frame, vtPicture* picture, Output* outputs,
+                        vtError* error)
+{
+    vtSession session = {0};
+    vtDrawing drawing = {.options = options, .showsProgress = isatty(STDERR_FILENO)};
+    vtResult result = checkOutputs(options, error);
+    if (result == vt_ok) {
+        result = vtChoosePictureFormat(options, &drawing.format, error);
     }
-    result = vtOpenSession(options, &session, error);
+    if (result == vt_ok) {
+        result = vtOpenSession(options, &session, error);
+    }
     if (result == vt_ok) {
         result = vtMakeFrame(options, &session.input, frame, error);
-        frame->linear = vtPictureFormat_IsLinear(format);
+        frame->linear = vtPictureFormat_IsLinear(drawing.format);
     }
     if (result == vt_ok) {
-        *pixels = malloc(4 * (size_t)frame->width * (size_t)frame->height);
-        result = *pixels != NULL ? drawAll(options, frame, format, &session, *pixels, outputs, error)
-                                 : vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d",
-                                          frame->width, frame->height);
+        result = vtDrawPicture(&drawing, &session, frame, picture, error);
+    }
+    if (result == vt_ok) {
+        result = session.renderer != NULL ? readDrawn(options, frame, &session, outputs, error)
+                                          : readTraced(options, &picture->traced, outputs, error);
     }
     vtCloseSession(&session);
-    return result;
-}
-
-static vtResult encodeTraced(const vtReferenceImage* image, const vtFrame* frame, vtPictureFormat format,
-                             uint8_t* pixels, Output* output, vtError* error)
-{
-    float* floats;
-    if (format == vt_formatPng) {
-        return vtEncodePng(pixels, 4, frame->width, frame->height, &output->bytes, &output->size, error);
-    }
-    vtResult result = vtTraceFloats(image, frame, &floats, error);
-    if (result == vt_ok) {
-        result = vtEncodePicture(floats, format, frame, pixels, &output->bytes, &output->size, error);
-        free(floats);
-    }
-    return result;
-}
-
-static vtResult trace(const vtOptions* options, vtFrame* frame, uint8_t** pixels, Output* outputs,
-                      vtError* error)
-{
-    if (options->layerSheet != NULL) {
-        return vtFail(error, vt_errorArgument, "layer sheet: technique 'reference' peels no layers");
-    }
-    vtInput input;
-    vtResult result = vtLoadInput(options, &input, error);
-    if (result != vt_ok) {
-        return result;
-    }
-    vtReferenceImage image = {0};
-    vtPictureFormat format;
-    result = vtChoosePictureFormat(options, &format, error);
-    if (result == vt_ok) {
-        result = vtMakeFrame(options, &input, frame, error);
-        frame->linear = vtPictureFormat_IsLinear(format);
-    }
-    if (result == vt_ok) {
-        result = vtTrace(options, &input, frame, &image, error);
-    }
-    if (result == vt_ok) {
-        result = vtTracePixels(&image, frame, pixels, error);
-    }
-    if (result == vt_ok) {
-        result = encodeTraced(&image, frame, format, *pixels, &outputs[outputPicture], error);
-    }
-    if (result == vt_ok && options->directions != NULL) {
-        result = vtEncodePfm(image.directions, frame->width, frame->height, &outputs[outputDirections].bytes,
-                             &outputs[outputDirections].size, error);
-    }
-    if (result == vt_ok && options->events != NULL) {
-        result = vtEncodePng(image.events, 1, frame->width, frame->height, &outputs[outputEvents].bytes,
-                             &outputs[outputEvents].size, error);
-    }
-    vtDestroyReferenceImage(&image);
-    vtDestroyInput(&input);
     return result;
 }
 
@@ -310,14 +246,47 @@ static vtResult compareWithReference(const vtOptions* options, const vtFrame* fr
     return result;
 }
 
-vtResult vtRunRender(const vtOptions* options, vtError* error)
+static vtResult renderOne(const vtOptions* options, vtError* error)
 {
     Output outputs[outputCount] = {
-        [outputPicture] = {.path = options->output},
         [outputDirections] = {.path = options->directions},
         [outputSheet] = {.path = options->layerSheet},
         [outputEvents] = {.path = options->events},
     };
+    vtFrame frame;
+    vtPicture picture = {0};
+    vtResult result = drawAll(options, &frame, &picture, outputs, error);
+    if (result == vt_ok && options->output != NULL) {
+        result = vtWriteFile(options->output, picture.bytes, picture.size, error);
+    }
+    for (int i = 0; i < outputCount && result == vt_ok; ++i) {
+        if (outputs[i].path != NULL) {
+            result = vtWriteFile(outputs[i].path, outputs[i].bytes, outputs[i].size, error);
+        }
+    }
+    if (result == vt_ok && options->reference != NULL) {
+        result = compareWithReference(options, &frame, picture.pixels, error);
+    }
+    for (int i = 0; i < outputCount; ++i) {
+        vtFree(outputs[i].bytes);
+    }
+    vtDestroyPicture(&picture);
+    return result;
+}
+
+vtResult vtRunRender(const vtOptions* options, vtError* error)
+{
+    if (vtIsSeries(options)) {
+        return vtRunSeries(options, error);
+    }
+    const char* moves = options->shutter > 0.0f ? "--shutter" : options->part != NULL ? "--part" : NULL;
+    if (moves != NULL) {
+        return vtFail(
+            error, vt_errorArgument,
+            "%s is of many pictures, and one is asked for; add --turntable N, --camera-keys FILE or "
+            "more models",
+            moves);
+    }
     if (options->output == NULL && options->directions == NULL && options->layerSheet == NULL &&
         options->reference == NULL && options->events == NULL) {
         return vtFail(error, vt_errorArgument, "no output given; add -o PICTURE.png");
@@ -325,21 +294,5 @@ vtResult vtRunRender(const vtOptions* options, vtError* error)
     if (options->output != NULL && strcmp(options->output, "-") == 0 && isatty(STDOUT_FILENO)) {
         return vtFail(error, vt_errorArgument, "-o - writes PNG bytes; send them to a file or a pipe");
     }
-    vtFrame frame;
-    uint8_t* pixels = NULL;
-    vtResult result = vtIsReference(options) ? trace(options, &frame, &pixels, outputs, error)
-                                             : rasterise(options, &frame, &pixels, outputs, error);
-    for (int i = 0; i < outputCount && result == vt_ok; ++i) {
-        if (outputs[i].path != NULL) {
-            result = vtWriteFile(outputs[i].path, outputs[i].bytes, outputs[i].size, error);
-        }
-    }
-    if (result == vt_ok && options->reference != NULL) {
-        result = compareWithReference(options, &frame, pixels, error);
-    }
-    for (int i = 0; i < outputCount; ++i) {
-        vtFree(outputs[i].bytes);
-    }
-    free(pixels);
-    return result;
+    return renderOne(options, error);
 }

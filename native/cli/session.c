@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "cli/trace.h"
 
 static vtResult findBackend(const char* name, vtBackend* backend, vtError* error)
 {
@@ -20,16 +21,29 @@ static vtResult findBackend(const char* name, vtBackend* backend, vtError* error
                   name);
 }
 
-static vtResult setScene(vtSession* session, vtError* error)
+static vtResult setSurroundings(const vtOptions* options, const vtSession* session, vtError* error)
 {
-    vtResult result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
-    if (result == vt_ok) {
-        result = vtRenderer_SetEnvironment(session->renderer, &session->input.environment, error);
-    }
+    vtResult result = vtRenderer_SetEnvironment(session->renderer, &session->input.environment, error);
     if (result == vt_ok && session->input.background.pixels != NULL) {
         result = vtRenderer_SetBackground(session->renderer, &session->input.background, error);
     }
+    if (result == vt_ok && options->ground.isThere) {
+        result = vtRenderer_SetGround(session->renderer, &options->ground.ground, error);
+    }
     return result;
+}
+
+static vtResult openRenderer(const vtOptions* options, vtBackend backend, vtSession* session, vtError* error)
+{
+    vtResult result = vtCreateContext(backend, &session->context, error);
+    if (result == vt_ok) {
+        result = vtCreateRenderer(&(vtRendererDef){.getProcAddress = session->context.getProcAddress},
+                                  &session->renderer, error);
+    }
+    if (result == vt_ok) {
+        result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
+    }
+    return result == vt_ok ? setSurroundings(options, session, error) : result;
 }
 
 vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* error)
@@ -40,18 +54,8 @@ vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* er
     if (result == vt_ok) {
         result = vtLoadInput(options, &session->input, error);
     }
-    if (result == vt_ok) {
-        result = vtCreateContext(backend, &session->context, error);
-    }
-    if (result == vt_ok) {
-        result = vtCreateRenderer(&(vtRendererDef){.getProcAddress = session->context.getProcAddress},
-                                  &session->renderer, error);
-    }
-    if (result == vt_ok) {
-        result = setScene(session, error);
-    }
-    if (result == vt_ok && options->ground.isThere) {
-        result = vtRenderer_SetGround(session->renderer, &options->ground.ground, error);
+    if (result == vt_ok && !vtIsReference(options)) {
+        result = openRenderer(options, backend, session, error);
     }
     if (result != vt_ok) {
         vtCloseSession(session);
@@ -61,14 +65,11 @@ vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* er
 
 vtResult vtSession_SetModel(vtSession* session, const vtOptions* options, vtError* error)
 {
-    vtInput fresh;
-    vtResult result = vtLoadInput(options, &fresh, error);
-    if (result != vt_ok) {
-        return result;
+    vtResult result = vtSetInputModel(options, &session->input, error);
+    if (result == vt_ok && session->renderer != NULL) {
+        result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
     }
-    vtDestroyInput(&session->input);
-    session->input = fresh;
-    return setScene(session, error);
+    return result;
 }
 
 void vtCloseSession(vtSession* session)

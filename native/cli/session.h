@@ -1,4 +1,5 @@
-// What every drawing command opens first: the scene, a headless context and a renderer that holds the scene.
+// What every drawing command opens first: the scene, and unless the reference traces it, a headless context
+// and a renderer that holds the scene.
 #pragma once
 
 #include "cli/load.h"
@@ -7,13 +8,13 @@
 typedef struct vtSession {
     vtInput input;
     vtContext context;
-    vtRenderer* renderer;
+    vtRenderer* renderer; ///< NULL: the reference's
 } vtSession;
 
 /// Opens all of it as the options say. On failure nothing is left open.
 vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* error);
 
-/// Puts another model into an open session; on failure the one before stays.
+/// Puts another model into an open session, before the same environment; on failure the one before stays.
 vtResult vtSession_SetModel(vtSession* session, const vtOptions* options, vtError* error);
 
 /// Safe on a zeroed session.

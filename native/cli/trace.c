@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "base/math.h"
@@ -20,7 +19,7 @@ static void showProgress(float share, void* userData)
     vtShowProgress("tracing", share, *(const double*)userData);
 }
 
-vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame,
+vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame, bool showsProgress,
                  vtReferenceImage* image, vtError* error)
 {
     vtReference* reference;
@@ -35,7 +34,7 @@ vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* 
         .samples = options->samples,
         .fresnel = frame->fresnel,
         .ground = options->ground.isThere ? &options->ground.ground : NULL,
-        .progress = isatty(STDERR_FILENO) ? showProgress : NULL,
+        .progress = showsProgress ? showProgress : NULL,
         .userData = &start,
     };
     result = vtReference_Trace(reference, &def, image, error);

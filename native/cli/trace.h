@@ -7,8 +7,8 @@
 /// True where --technique names the CPU reference rather than a row of the table.
 bool vtIsReference(const vtOptions* options);
 
-/// Traces the frame, with a progress line on standard error where that is a terminal.
-vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame,
+/// Traces the frame, if asked to with a progress line on standard error.
+vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame, bool showsProgress,
                  vtReferenceImage* image, vtError* error);
 
 /// The frame's output (picture or analysis) of a traced image: RGBA, allocated by malloc.

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "cli/commands.h"
@@ -98,7 +99,8 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
     const vtFrame* frame = &ladder->frames[0];
     float* directions = malloc(3 * sizeof(float) * (size_t)frame->width * (size_t)frame->height);
     vtReference* reference = NULL;
-    vtResult result = directions != NULL ? vtTrace(options, &session->input, frame, &ladder->truth, error)
+    vtResult result = directions != NULL ? vtTrace(options, &session->input, frame, isatty(STDERR_FILENO),
+                                                   &ladder->truth, error)
                                          : vtFail(error, vt_errorMemory, "ladder: out of memory");
     if (result == vt_ok) {
         result = vtTracePixels(&ladder->truth, frame, &ladder->truthPixels, error);

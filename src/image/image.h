@@ -32,18 +32,19 @@ vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage
 vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
                      size_t* size, vtError* error);
 
-/// The same of 16 bits.
-vtResult vtEncodePng16(const uint16_t* pixels, int channels, int width, int height, uint8_t** bytes,
-                       size_t* size, vtError* error);
+/// The same of 8 or 16 `bits`, with a comment in the file: a line of ASCII, NULL: none.
+vtResult vtEncodePngOf(const void* pixels, int channels, int bits, int width, int height, const char* comment,
+                       uint8_t** bytes, size_t* size, vtError* error);
 
 /// Encodes linear light, top row first, as OpenEXR: floats as they are; `channels` is 3 (RGB) or 4 (RGBA, the
-/// colours times alpha).
-vtResult vtEncodeExr(const float* pixels, int channels, int width, int height, uint8_t** bytes, size_t* size,
-                     vtError* error);
+/// colours times alpha). `comment`: as above.
+vtResult vtEncodeExr(const float* pixels, int channels, int width, int height, const char* comment,
+                     uint8_t** bytes, size_t* size, vtError* error);
 
 /// The same of 3 floats a pixel as Radiance HDR: within 0.4 % of a pixel's largest number, which is at
 /// most 1.7e38.
-vtResult vtEncodeHdr(const float* rgb, int width, int height, uint8_t** bytes, size_t* size, vtError* error);
+vtResult vtEncodeHdr(const float* rgb, int width, int height, const char* comment, uint8_t** bytes,
+                     size_t* size, vtError* error);
 
 /// Whether this begins as a file of these formats does.
 bool vtIsPicture(const void* bytes, size_t size);

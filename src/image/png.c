@@ -2,6 +2,7 @@
 // Writer, from where it is given back.
 #include <png.h>
 #include <setjmp.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -185,8 +186,10 @@ static void flushBytes(png_structp png)
     (void)png;
 }
 
-static bool writePng(Writer* writer, const void* pixels, int channels, int bits, int width, int height)
+static bool writePng(Writer* writer, const void* pixels, int channels, int bits, int width, int height,
+                     const char* comment)
 {
+    char key[] = "Comment", text[128];
     if (setjmp(writer->outcome.escape) != 0) {
         return false;
     }
@@ -197,6 +200,11 @@ static bool writePng(Writer* writer, const void* pixels, int channels, int bits,
     png_set_write_fn(png, writer, writeBytes, flushBytes);
     png_set_IHDR(png, writer->info, (png_uint_32)width, (png_uint_32)height, bits, type, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (comment != NULL) {
+        snprintf(text, sizeof text, "%s", comment);
+        png_set_text(png, writer->info,
+                     &(png_text){.compression = PNG_TEXT_COMPRESSION_NONE, .key = key, .text = text}, 1);
+    }
     png_write_info(png, writer->info);
     const uint16_t one = 1;
     if (bits == 16 && *(const uint8_t*)&one == 1) {
@@ -210,8 +218,8 @@ static bool writePng(Writer* writer, const void* pixels, int channels, int bits,
     return true;
 }
 
-static vtResult encode(const void* pixels, int channels, int bits, int width, int height, uint8_t** bytes,
-                       size_t* size, vtError* error)
+vtResult vtEncodePngOf(const void* pixels, int channels, int bits, int width, int height, const char* comment,
+                       uint8_t** bytes, size_t* size, vtError* error)
 {
     *bytes = NULL;
     *size = 0;
@@ -222,7 +230,8 @@ static vtResult encode(const void* pixels, int channels, int bits, int width, in
     writer.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &writer.outcome, leave, pass,
                                            &writer.outcome, allocate, release);
     writer.info = writer.png != NULL ? png_create_info_struct(writer.png) : NULL;
-    const bool written = writer.info != NULL && writePng(&writer, pixels, channels, bits, width, height);
+    const bool written =
+        writer.info != NULL && writePng(&writer, pixels, channels, bits, width, height, comment);
     png_destroy_write_struct(&writer.png, &writer.info);
     if (!written) { // nothing else can fail
         vtFree(writer.bytes);
@@ -236,11 +245,5 @@ static vtResult encode(const void* pixels, int channels, int bits, int width, in
 vtResult vtEncodePng(const uint8_t* pixels, int channels, int width, int height, uint8_t** bytes,
                      size_t* size, vtError* error)
 {
-    return encode(pixels, channels, 8, width, height, bytes, size, error);
-}
-
-vtResult vtEncodePng16(const uint16_t* pixels, int channels, int width, int height, uint8_t** bytes,
-                       size_t* size, vtError* error)
-{
-    return encode(pixels, channels, 16, width, height, bytes, size, error);
+    return vtEncodePngOf(pixels, channels, 8, width, height, NULL, bytes, size, error);
 }

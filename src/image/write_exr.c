@@ -33,7 +33,8 @@ static int64_t writeBytes(exr_const_context_t context, void* data, const void* f
     return (int64_t)size;
 }
 
-static exr_result_t writeHeader(const Writer* writer, int channels, int width, int height)
+static exr_result_t writeHeader(const Writer* writer, int channels, int width, int height,
+                                const char* comment)
 {
     int part = 0;
     exr_context_t context = writer->context;
@@ -45,6 +46,9 @@ static exr_result_t writeHeader(const Writer* writer, int channels, int width, i
     for (const char* at = names; *at != '\0' && code == EXR_ERR_SUCCESS; ++at) {
         code = exr_add_channel(context, part, (const char[2]){*at, '\0'}, EXR_PIXEL_FLOAT,
                                EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    }
+    if (comment != NULL && code == EXR_ERR_SUCCESS) {
+        code = exr_attr_set_string(context, part, "comments", comment);
     }
     return code == EXR_ERR_SUCCESS ? exr_write_header(context) : code;
 }
@@ -73,7 +77,8 @@ static exr_result_t writeChunk(const Writer* writer, const float* pixels, int ch
     return code;
 }
 
-static exr_result_t writeExr(Writer* writer, const float* pixels, int channels, int width, int height)
+static exr_result_t writeExr(Writer* writer, const float* pixels, int channels, int width, int height,
+                             const char* comment)
 {
     exr_context_initializer_t start = {.size = sizeof start,
                                        .user_data = writer,
@@ -81,7 +86,7 @@ static exr_result_t writeExr(Writer* writer, const float* pixels, int channels, 
                                        .zip_level = -2,
                                        .dwa_quality = -1.0f};
     exr_result_t code = exr_start_write(&writer->context, "memory", EXR_WRITE_FILE_DIRECTLY, &start);
-    code = code == EXR_ERR_SUCCESS ? writeHeader(writer, channels, width, height) : code;
+    code = code == EXR_ERR_SUCCESS ? writeHeader(writer, channels, width, height, comment) : code;
     int32_t lines = 1;
     code = code == EXR_ERR_SUCCESS ? exr_get_scanlines_per_chunk(writer->context, 0, &lines) : code;
     for (int row = 0; row < height && code == EXR_ERR_SUCCESS; row += lines) {
@@ -90,8 +95,8 @@ static exr_result_t writeExr(Writer* writer, const float* pixels, int channels, 
     return code;
 }
 
-vtResult vtEncodeExr(const float* pixels, int channels, int width, int height, uint8_t** bytes, size_t* size,
-                     vtError* error)
+vtResult vtEncodeExr(const float* pixels, int channels, int width, int height, const char* comment,
+                     uint8_t** bytes, size_t* size, vtError* error)
 {
     *bytes = NULL;
     *size = 0;
@@ -99,7 +104,7 @@ vtResult vtEncodeExr(const float* pixels, int channels, int width, int height, u
         return vt_errorArgument;
     }
     Writer writer = {0};
-    exr_result_t code = writeExr(&writer, pixels, channels, width, height);
+    exr_result_t code = writeExr(&writer, pixels, channels, width, height, comment);
     if (writer.context != NULL) {
         const exr_result_t ended = exr_finish(&writer.context);
         code = code == EXR_ERR_SUCCESS ? ended : code;

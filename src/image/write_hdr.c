@@ -9,7 +9,14 @@
 #include "image/image.h"
 #include "image/image_checks.h"
 
-enum { shortestCoded = 8, longestCoded = 0x7FFF, shortestRun = 4, longestRun = 127, longestLiteral = 128 };
+enum {
+    shortestCoded = 8,
+    longestCoded = 0x7FFF,
+    shortestRun = 4,
+    longestRun = 127,
+    longestLiteral = 128,
+    mostOfHeader = 256
+};
 
 /// Three mantissas of 1 / 256 and the exponent, excess 128, that they have in common. Negative numbers and
 /// NaN become 0, what is too large the largest that there is.
@@ -81,7 +88,8 @@ static uint8_t* writeLine(const uint8_t* line, int width, uint8_t* to)
     return to;
 }
 
-vtResult vtEncodeHdr(const float* rgb, int width, int height, uint8_t** bytes, size_t* size, vtError* error)
+vtResult vtEncodeHdr(const float* rgb, int width, int height, const char* comment, uint8_t** bytes,
+                     size_t* size, vtError* error)
 {
     *bytes = NULL;
     *size = 0;
@@ -91,14 +99,16 @@ vtResult vtEncodeHdr(const float* rgb, int width, int height, uint8_t** bytes, s
     // Literals take a byte more for each 128; a line begins with four.
     const size_t mostOfLine = 4 * ((size_t)width + (size_t)width / 64 + 2) + 4;
     uint8_t* line = vtAllocate((size_t)width, 4);
-    uint8_t* encoded = vtAllocate(128 + mostOfLine * (size_t)height, 1);
+    uint8_t* encoded = vtAllocate(mostOfHeader + mostOfLine * (size_t)height, 1);
     if (line == NULL || encoded == NULL) {
         vtFree(line);
         vtFree(encoded);
         return vtFail(error, vt_errorMemory, "no memory to write an HDR of %d x %d pixels", width, height);
     }
-    uint8_t* to = encoded + snprintf((char*)encoded, 128,
-                                     "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", height, width);
+    uint8_t* to = encoded + snprintf((char*)encoded, mostOfHeader,
+                                     "#?RADIANCE\n%s%.120s%sFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n",
+                                     comment != NULL ? "# " : "", comment != NULL ? comment : "",
+                                     comment != NULL ? "\n" : "", height, width);
     for (int row = 0; row < height; ++row) {
         for (int i = 0; i < width; ++i) {
             toRgbe(rgb + 3 * ((size_t)row * (size_t)width + (size_t)i), line + 4 * (size_t)i);

@@ -144,6 +144,15 @@ static vtResult drawGround(vtRenderer* renderer, const vtFrame* frame, vtError* 
                              frame, error);
 }
 
+/// Are the samples of the frame before another moment of the same picture?
+static bool movesOn(const vtRenderer* renderer, const vtFrame* frame)
+{
+    const vtFrame* before = &renderer->frame;
+    return frame->moving && frame->firstSample > 0 && frame->output == vt_outputPicture &&
+           frame->width == before->width && frame->height == before->height &&
+           frame->technique == before->technique;
+}
+
 vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* error)
 {
     vtFrame resolved;
@@ -166,8 +175,9 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
         result = vtProgramList_Finish(&programs, gl, error);
     }
     result = result == vt_ok ? vtCheckFrame(gl, "preparing the frame", error) : result;
+    const int movingEnd = movesOn(renderer, frame) ? renderer->movingEnd : 0;
     int sampleEnd = renderer->sampleEnd;
-    renderer->sampleEnd = 0; // should something fail
+    renderer->sampleEnd = renderer->movingEnd = 0; // should something fail
     if (result != vt_ok) {
         return result;
     }
@@ -175,7 +185,7 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     vtSceneBuffer_SortGlass(&renderer->scene, camera.eye);
     vtWriteObjectTable(&renderer->scene, frame, &camera);
     const bool sameTable = !vtSceneBuffer_SetTable(&renderer->scene, gl);
-    sampleEnd = goesOn && sameTable ? sampleEnd : 0;
+    sampleEnd = movingEnd > 0 ? movingEnd : goesOn && sameTable ? sampleEnd : 0;
     renderer->ground.isStale = renderer->ground.isStale || !sameTable;
     result = drawGround(renderer, frame, error);
     if (result != vt_ok) {
@@ -187,6 +197,7 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     } else {
         drawStraight(renderer, frame);
     }
+    renderer->movingEnd = renderer->sampleEnd;
     vtLeaveState(gl);
     return vtCheckFrame(gl, "drawing the frame", error);
 }

@@ -46,6 +46,7 @@ struct vtRenderer {
     vtFrame frame;            // the last, as it was drawn
     vtFrameUniforms uniforms; // its own, of the pixel's centre
     int sampleEnd;            // the first sample not drawn yet; 0: nothing to go on with
+    int movingEnd;            // the same where what has changed since is motion
     // vtRenderer_DrawImage draws into this.
     GLuint imageFramebuffer;
     vtTexture image; // RGBA8, or RGBA32UI where floats are drawn

@@ -54,7 +54,7 @@ void vtRenderer_DrawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
     } else if (accumulate->count == 0) { // sample 0 was drawn straight, and its light is still there
         addSample(renderer, 0);
     }
-    bool layersToo = sampleEnd == 0;
+    bool layersToo = sampleEnd == 0 || frame->moving;
     const int end = frame->firstSample + frame->samples;
     for (int i = frame->firstSample > sampleEnd ? frame->firstSample : sampleEnd; i < end; ++i) {
         vtRenderer_UploadSample(renderer, i, accumulate->count + 1);

@@ -31,7 +31,7 @@ static void exrHasTheFloatsThemselves(void** state)
         size_t size;
         float* read;
         int readWidth, readHeight;
-        assert_ok(vtEncodeExr(light, channels, width, height, &bytes, &size, &error), error);
+        assert_ok(vtEncodeExr(light, channels, width, height, NULL, &bytes, &size, &error), error);
         assert_ok(vtDecodeImageLinear(bytes, size, "x.exr", &read, &readWidth, &readHeight, &error), error);
         assert_int_equal(readWidth, width);
         assert_int_equal(readHeight, height);
@@ -59,7 +59,7 @@ static void hdrIsWithinHalfAStep(void** state)
         size_t size;
         float* read;
         int readWidth, readHeight;
-        assert_ok(vtEncodeHdr(light, width, height, &bytes, &size, &error), error);
+        assert_ok(vtEncodeHdr(light, width, height, NULL, &bytes, &size, &error), error);
         assert_ok(vtDecodeImageLinear(bytes, size, "x.hdr", &read, &readWidth, &readHeight, &error), error);
         assert_int_equal(readWidth, width);
         assert_int_equal(readHeight, height);
@@ -84,7 +84,7 @@ static void hdrTakesNumbersThatAreNoLight(void** state)
     float* read;
     int width, height;
     vtError error;
-    assert_ok(vtEncodeHdr(odd, 3, 1, &bytes, &size, &error), error);
+    assert_ok(vtEncodeHdr(odd, 3, 1, NULL, &bytes, &size, &error), error);
     assert_ok(vtDecodeImageLinear(bytes, size, "x.hdr", &read, &width, &height, &error), error);
     assert_true(read[0] == 0.0f && read[1] == 0.0f && read[2] == 0.0f);
     assert_true(read[3] == 65504.0f); // the most that is read
@@ -107,7 +107,7 @@ static void aPngOf16BitsHasAll16(void** state)
     float* read;
     int readWidth, readHeight;
     vtError error;
-    assert_ok(vtEncodePng16(samples, 4, width, height, &bytes, &size, &error), error);
+    assert_ok(vtEncodePngOf(samples, 4, 16, width, height, NULL, &bytes, &size, &error), error);
     assert_ok(vtDecodeImageLinear(bytes, size, "x.png", &read, &readWidth, &readHeight, &error), error);
     for (int p = 0; p < width * height; ++p) {
         for (int k = 0; k < 3; ++k) {
@@ -126,9 +126,9 @@ static void sidesAreChecked(void** state)
     uint8_t* bytes;
     size_t size;
     vtError error;
-    assert_int_equal(vtEncodeExr(light, 3, 0, 1, &bytes, &size, &error), vt_errorArgument);
-    assert_int_equal(vtEncodeHdr(light, 1, 20000, &bytes, &size, &error), vt_errorArgument);
-    assert_int_equal(vtEncodePng16(samples, 4, -1, 1, &bytes, &size, &error), vt_errorArgument);
+    assert_int_equal(vtEncodeExr(light, 3, 0, 1, NULL, &bytes, &size, &error), vt_errorArgument);
+    assert_int_equal(vtEncodeHdr(light, 1, 20000, NULL, &bytes, &size, &error), vt_errorArgument);
+    assert_int_equal(vtEncodePngOf(samples, 4, 16, -1, 1, NULL, &bytes, &size, &error), vt_errorArgument);
     assert_null(bytes);
 }
 

@@ -267,6 +267,35 @@ static void colorsOutOfRangeAreRefused(void** state)
     }
 }
 
+static void motionIsTheMeanOfItsMoments(void** state)
+{
+    Fixture* fixture = *state;
+    setShape(fixture->renderer, "knot");
+    setEnvironment(fixture->renderer, "studio");
+    const vtTechnique techniques[] = {vt_techniqueExact, vt_techniqueLayered};
+    for (int i = 0; i < 2; ++i) {
+        vtFrame first = smallFrame(techniques[i]);
+        first.linear = true;
+        vtFrame second = first;
+        second.view = vtView_Orbit(first.view, 0.3f, 0.0f);
+        second.firstSample = 1;
+        float* wanted = drawFloats(fixture, &second); // that sample alone: what is there is not of this view
+        float* before = drawFloats(fixture, &first);
+        second.moving = true;
+        float* both = drawFloats(fixture, &second);
+        double apart = 0.0;
+        for (int k = 0; k < 4 * pixelCount; ++k) {
+            const float mean = 0.5f * (wanted[k] + before[k]);
+            assert_near(both[k], mean, 0.004f + 0.004f * mean); // half floats
+            apart += (double)fabsf(wanted[k] - before[k]);
+        }
+        assert_true(apart > 0.01 * 4 * pixelCount); // it did move
+        free(wanted);
+        free(before);
+        free(both);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -277,6 +306,7 @@ int main(void)
         cmocka_unit_test(aPictureStandsUprightAndIsSmooth),
         cmocka_unit_test(fullAnalysisHasNoBackground),
         cmocka_unit_test(colorsOutOfRangeAreRefused),
+        cmocka_unit_test(motionIsTheMeanOfItsMoments),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);
 }

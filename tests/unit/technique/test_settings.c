@@ -48,7 +48,7 @@ static void everyRangeIsHeld(void** state)
 static void everySettingCountsForGoingOn(void** state)
 {
     (void)state;
-    static const char* const others[] = {"samples", "first-sample", "count-reads"};
+    static const char* const others[] = {"samples", "first-sample", "moving", "count-reads"};
     const vtSetting* setting;
     const vtFrame frame = validFrame();
     assert_true(vtFrame_Same(&frame, &frame));
@@ -60,7 +60,7 @@ static void everySettingCountsForGoingOn(void** state)
             vtSetting_Set(setting, &changed, vtSetting_Get(setting, &frame) == 0.0 ? 1.0 : 0.0);
         }
         bool goesOn = false;
-        for (int k = 0; k < 3; ++k) {
+        for (size_t k = 0; k < sizeof others / sizeof others[0]; ++k) {
             goesOn = goesOn || strcmp(setting->name, others[k]) == 0;
         }
         assert_int_equal(vtFrame_Same(&frame, &changed), goesOn);

@@ -1,0 +1,274 @@
+#include "cli/series_plan.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "cli/files.h"
+#include "cli/hash.h"
+#include "cli/output_name.h"
+#include "cli/series.h"
+#include "cli/trace.h"
+#include "cli/video.h"
+
+enum { mostFrames = 1000000 };
+
+bool vtIsSeries(const vtOptions* options)
+{
+    return options->modelCount > 1 || options->list != NULL || options->turntable > 0 ||
+           options->frameRange != NULL || options->cameraKeys != NULL ||
+           (options->output != NULL && vtIsVideo(options->output));
+}
+
+// ----------------------------------------------------------------------------------------------- options
+
+/// What is said of one picture, or of nothing that is there.
+static vtResult checkOptions(const vtOptions* options, const vtPlan* plan, vtError* error)
+{
+    const char* ofOne = options->directions != NULL   ? "--directions"
+                        : options->layerSheet != NULL ? "--layer-sheet"
+                        : options->events != NULL     ? "--events"
+                        : options->reference != NULL  ? "--reference"
+                                                      : NULL;
+    if (ofOne != NULL) {
+        return vtFail(error, vt_errorArgument, "%s is of one picture; several are asked for", ofOne);
+    }
+    if (options->output == NULL) {
+        return vtFail(error, vt_errorArgument, "no output given; add -o 'NAME-{frame}.png' or -o NAME.mp4");
+    }
+    if (strcmp(options->output, "-") == 0) {
+        return vtFail(error, vt_errorArgument,
+                      "-o - takes one picture, several are asked for; name files, -o 'NAME-{frame}.png'");
+    }
+    if (plan->isVideo && options->bits != 0) {
+        return vtFail(error, vt_errorArgument, "--bits is of a PNG; '%.200s' is a film, so leave it out",
+                      options->output);
+    }
+    if (options->shutter > 0.0f && vtIsReference(options)) {
+        return vtFail(error, vt_errorArgument,
+                      "--shutter: technique 'reference' has no moments between frames; leave it out");
+    }
+    if (options->shutter > 0.0f && options->samples == 1) {
+        return vtFail(error, vt_errorArgument,
+                      "--shutter is spread over a picture's samples, of which there is 1; add --samples 16");
+    }
+    return vtCheckPattern(options->output, error);
+}
+
+// ------------------------------------------------------------------------------------------------ models
+
+static vtResult readList(const char* path, vtPlan* plan, vtError* error)
+{
+    uint8_t* bytes;
+    size_t size;
+    vtResult result = vtReadFile(path, &bytes, &size, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    size_t lines = 1;
+    for (size_t i = 0; i < size; ++i) {
+        lines += bytes[i] == '\n';
+    }
+    plan->list = calloc(size + 1, 1);
+    plan->models = calloc(lines, sizeof *plan->models);
+    if (plan->list == NULL || plan->models == NULL) {
+        vtFree(bytes);
+        return vtFail(error, vt_errorMemory, "--list '%.200s': out of memory", path);
+    }
+    memcpy(plan->list, bytes, size);
+    vtFree(bytes);
+    for (char* line = plan->list; line != NULL;) {
+        char* next = strchr(line, '\n');
+        if (next != NULL) {
+            *next++ = '\0';
+        }
+        line[strcspn(line, "\r")] = '\0';
+        if (*line != '\0') {
+            plan->models[plan->modelCount++] = line;
+        }
+        line = next;
+    }
+    return plan->modelCount > 0
+               ? vt_ok
+               : vtFail(error, vt_errorArgument, "--list '%.200s' names no model; it has one a line", path);
+}
+
+static int compareNames(const void* a, const void* b)
+{
+    char left[1024], right[1024];
+    vtNameModel(*(const char* const*)a, left, sizeof left);
+    vtNameModel(*(const char* const*)b, right, sizeof right);
+    return strcmp(left, right);
+}
+
+/// No two models may write the same file.
+static vtResult checkNames(const vtOptions* options, const vtPlan* plan, vtError* error)
+{
+    if (plan->modelCount < 2) {
+        return vt_ok;
+    }
+    if (!vtPatternHas(options->output, "{name}") || plan->isVideo) {
+        return vtFail(error, vt_errorArgument,
+                      plan->isVideo
+                          ? "-o '%.200s' is one film, but %zu models are named; name one, or add the others to "
+                            "its scene with --object"
+                          : "-o '%.200s' names one file, but %zu models are named; let it have {name}, as "
+                            "'out/{name}.png', or add the others to one scene with --object",
+                      options->output, plan->modelCount);
+    }
+    const char** sorted = malloc(plan->modelCount * sizeof *sorted);
+    if (sorted == NULL) {
+        return vtFail(error, vt_errorMemory, "out of memory for %zu models", plan->modelCount);
+    }
+    memcpy(sorted, plan->models, plan->modelCount * sizeof *sorted);
+    qsort(sorted, plan->modelCount, sizeof *sorted, compareNames);
+    vtResult result = vt_ok;
+    for (size_t i = 1; i < plan->modelCount && result == vt_ok; ++i) {
+        if (compareNames(&sorted[i - 1], &sorted[i]) == 0) {
+            result = vtFail(error, vt_errorArgument,
+                            "models '%.200s' and '%.200s' have the same {name}, so both would write the same "
+                            "file; draw them apart",
+                            sorted[i - 1], sorted[i]);
+        }
+    }
+    free(sorted);
+    return result;
+}
+
+static vtResult findModels(const vtOptions* options, vtPlan* plan, vtError* error)
+{
+    if (options->list != NULL && options->modelCount > 0) {
+        return vtFail(error, vt_errorArgument,
+                      "--list names the models; '%.200s' beside it is one too many, add it to the list",
+                      options->models[0]);
+    }
+    if (options->list != NULL) {
+        return readList(options->list, plan, error);
+    }
+    plan->modelCount = options->modelCount > 0 ? (size_t)options->modelCount : 1;
+    plan->models = calloc(plan->modelCount, sizeof *plan->models);
+    if (plan->models == NULL) {
+        return vtFail(error, vt_errorMemory, "out of memory for %zu models", plan->modelCount);
+    }
+    for (int i = 0; i < options->modelCount; ++i) {
+        plan->models[i] = options->models[i];
+    }
+    return vt_ok;
+}
+
+// ------------------------------------------------------------------------------------------------ frames
+
+/// "A:B", both of them drawn, or "A:" to the end that there is.
+static bool readRange(const char* text, int end, int* first, int* last)
+{
+    int read = 0;
+    if (sscanf(text, "%7d:%n", first, &read) != 1 || read == 0 || text[0] < '0' || text[0] > '9') {
+        return false;
+    }
+    *last = end - 1;
+    if (text[read] != '\0') {
+        int more = 0;
+        if (sscanf(text + read, "%7d%n", last, &more) != 1 || text[read + more] != '\0' ||
+            text[read] < '0' || text[read] > '9') {
+            return false;
+        }
+    }
+    return *first <= *last && *last < mostFrames;
+}
+
+static vtResult findFrames(const vtOptions* options, vtPlan* plan, vtError* error)
+{
+    const int count = vtMotion_FrameCount(&plan->motion);
+    plan->frameCount = 1;
+    if (count == 0 && (options->frameRange != NULL || plan->isVideo || options->shutter > 0.0f)) {
+        return vtFail(error, vt_errorArgument, "%s: nothing moves; add --turntable N or --camera-keys FILE",
+                      options->frameRange != NULL ? "--frames"
+                      : plan->isVideo             ? options->output
+                                                  : "--shutter");
+    }
+    if (count == 0) {
+        return vt_ok;
+    }
+    int last = count - 1;
+    plan->hasFrames = true;
+    if (options->frameRange != NULL && !readRange(options->frameRange, count, &plan->firstFrame, &last)) {
+        return vtFail(error, vt_errorArgument,
+                      "--frames is '%.100s'; it must be A:B, the first and the last, counted from 0, or A: to "
+                      "the last, which is %d",
+                      options->frameRange, count - 1);
+    }
+    plan->frameCount = last - plan->firstFrame + 1;
+    return vt_ok;
+}
+
+// -------------------------------------------------------------------------------------------------- plan
+
+/// The keys count for what is drawn.
+static uint64_t hashKeys(const vtMotion* motion)
+{
+    uint64_t hash = VT_NO_HASH;
+    for (size_t i = 0; i < motion->keyCount; ++i) {
+        hash = vtHash(hash, &motion->keys[i].time, sizeof(double));
+        hash = vtHash(hash, &motion->keys[i].view, sizeof(vtView));
+    }
+    return hash;
+}
+
+vtResult vtMakePlan(const vtOptions* options, vtPlan* plan, vtError* error)
+{
+    *plan = (vtPlan){.isVideo = options->output != NULL && vtIsVideo(options->output)};
+    vtResult result = checkOptions(options, plan, error);
+    if (result == vt_ok) {
+        result = findModels(options, plan, error);
+    }
+    if (result == vt_ok) {
+        result = checkNames(options, plan, error);
+    }
+    if (result == vt_ok) {
+        result = vtMakeMotion(options, &plan->motion, error);
+    }
+    if (result == vt_ok) {
+        result = findFrames(options, plan, error);
+    }
+    if (result == vt_ok) {
+        result = vtFindPart(options, &plan->part, error);
+    }
+    if (result == vt_ok && plan->isVideo && plan->part.count > 1) {
+        result = vtFail(error, vt_errorArgument,
+                        "-o '%.200s' is one film, which cannot be drawn in parts; let the parts write pictures, "
+                        "-o 'NAME-{frame}.png', and make the film of them",
+                        options->output);
+    }
+    plan->contents = hashKeys(&plan->motion);
+    for (size_t i = 0; i < plan->modelCount && result == vt_ok; ++i) {
+        for (int k = 0; k < plan->frameCount; ++k) {
+            plan->ownCount += vtPlan_IsOwn(plan, i, k);
+        }
+    }
+    return result;
+}
+
+void vtDestroyPlan(vtPlan* plan)
+{
+    free(plan->models);
+    free(plan->list);
+    vtDestroyMotion(&plan->motion);
+    *plan = (vtPlan){0};
+}
+
+bool vtPlan_IsOwn(const vtPlan* plan, size_t model, int frame)
+{
+    const size_t index = model * (size_t)plan->frameCount + (size_t)frame;
+    return index % (size_t)plan->part.count == (size_t)plan->part.number - 1;
+}
+
+bool vtPlan_HasOwn(const vtPlan* plan, size_t model)
+{
+    bool has = false;
+    for (int i = 0; i < plan->frameCount && !has; ++i) {
+        has = vtPlan_IsOwn(plan, model, i);
+    }
+    return has;
+}
