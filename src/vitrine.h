@@ -149,6 +149,7 @@ typedef struct vtMesh {
     struct vtHeightField*
         heights; ///< of a relief, which has no triangles before vtTriangulateRelief; or NULL
     struct vtHierarchy* hierarchy; ///< over the triangles (vtBeginPreparation), or NULL
+    uint32_t updates;              ///< how often vtMesh_Update has moved its vertices
 } vtMesh;
 
 /// Copies and checks triangles. Missing normals are computed as angle-weighted means over welded
@@ -422,8 +423,45 @@ typedef struct vtModelDef {
 /// Loads glTF 2.0 (through tinygltf); docs/gltf.md lists what is drawn. Everything that can be wrong with a
 /// file gives a sentence. Materials with KHR_materials_transmission are glass; where the file has none such,
 /// all of them are made glass of their index of refraction. Primitives of one glTF mesh with the same
-/// material make one mesh; nodes that share it are instances. On failure *scene is zeroed.
+/// material make one mesh; nodes that share it are instances. Everything stands as its nodes say:
+/// vtOpenModel plays animations. On failure *scene is zeroed.
 VT_API vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* error);
+
+/// A file that is kept for its animations: what they move, not its bytes. It moves one scene, that which was
+/// loaded with it.
+typedef struct vtModel vtModel;
+
+/// Loads as vtLoadScene does, everything at rest, and keeps *model for vtModel_SetTime. Fails for an
+/// animation that is damaged, too. On failure *scene is zeroed and *model NULL.
+VT_API vtResult vtOpenModel(const vtModelDef* def, vtModel** model, vtScene* scene, vtError* error);
+/// The scene stays. Safe on NULL.
+VT_API void vtCloseModel(vtModel* model);
+
+typedef struct vtAnimation {
+    const char* name; ///< as the file has it, maybe ""; lives as long as the model
+    double duration;  ///< seconds from 0 to its last key
+} vtAnimation;
+/// By number, from 0; NULL past the end.
+VT_API const vtAnimation* vtModel_Animation(const vtModel* model, int index);
+
+/// Where a model's scene lies in another one: the numbers of its first mesh, material, ... there, and the
+/// transform of vtScene_Append.
+typedef struct vtModelPlace {
+    uint32_t mesh, material, object, camera, light;
+    vtTransform toWorld;
+} vtModelPlace;
+/// That of what vtScene_Append adds next with this transform; NULL: as it is.
+VT_API vtModelPlace vtScene_NextPlace(const vtScene* scene, const vtTransform* transform);
+
+/// Moves the model's objects, cameras, lights, vertices (vtMesh_Update) and numbers of materials to where the
+/// animation has them at a time: as at its ends before and after it. To play round and round is the caller's
+/// work: fmod(seconds, duration). animation -1: at rest. place: where in the scene the model lies; NULL: the
+/// scene is as it was loaded. vtRenderer_UpdateScene draws it so. Samplers are interpolated as glTF 2.0 has
+/// it (appendix C); what is scaled to nothing becomes as small as can be drawn. Fails with vt_errorArgument
+/// for an animation or a scene that does not fit, vt_errorGeometry where nodes make something flat or too
+/// large; then a part of the scene may have moved, which another time sets right.
+VT_API vtResult vtModel_SetTime(vtModel* model, int animation, double seconds, const vtModelPlace* place,
+                                vtScene* scene, vtError* error);
 
 /// A kind of glass, by its numbers at the yellow line of helium (587.6 nm).
 typedef struct vtGlassInfo {
@@ -884,6 +922,12 @@ VT_API vtResult vtRenderer_SetInstance(vtRenderer* renderer, vtInstanceId id, co
 VT_API vtResult vtRenderer_GetInstance(vtRenderer* renderer, vtInstanceId id, vtInstanceDef* def,
                                        vtError* error);
 VT_API vtResult vtRenderer_RemoveInstance(vtRenderer* renderer, vtInstanceId id, vtError* error);
+
+/// Draws the scene that was set last, of which none has been removed since, as it is now: vertices moved by
+/// vtMesh_Update, objects and lights moved, materials changed. Only what has changed is uploaded. Fails with
+/// vt_errorArgument where it is another scene, and as vtRenderer_UpdateGeometry and vtRenderer_SetInstance
+/// do; then a part of it may be drawn as it was.
+VT_API vtResult vtRenderer_UpdateScene(vtRenderer* renderer, const vtScene* scene, vtError* error);
 
 /// The images that the materials of instances name, in place of those there are.
 VT_API vtResult vtRenderer_SetImages(vtRenderer* renderer, const vtImage* images, uint32_t count,

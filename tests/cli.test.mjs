@@ -12,6 +12,7 @@ import * as shapes from '../scripts/glb.mjs';
 import { glb, gltf } from '../scripts/glb.mjs';
 import { drawPlot } from '../scripts/plot.mjs';
 import { goldenModels } from './golden-models.mjs';
+import { moving } from './moving-model.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
@@ -296,7 +297,7 @@ describe('bad input', () => {
     refuses(render('sphere', '--technique', 'magic'), ["'magic'", 'vitrine list']);
     refuses(render('sphere', '--rendering-backend', 'vulkan'), ["'vulkan'", 'auto, osmesa or egl']);
     refuses(render('sphere', '--shiny'), ['--shiny', 'vitrine render --help']);
-    refuses(render('sphere', 'torus'), ["'torus'", 'one model']);
+    refuses(render('sphere', 'torus'), ["'torus' is a second model", '{name}', '--object']);
     refuses(render(), ['no model given']);
     refuses(render('sphere', '--bits', '12'), ['--bits is 12', '8 or 16']);
     refuses(render('sphere', '--tone-mapping', 'film'), ["--tone-mapping is 'film'", 'none, neutral, aces or agx']);
@@ -1124,11 +1125,11 @@ describe('glTF files', () => {
     parts.json.scenes[0].nodes = [0, 1];
     const name = write('facts.glb', glb(parts));
     const facts = JSON.parse(vitrine(['inspect', name, '--json']).text);
-    assert.deepEqual([facts.triangles, facts.meshes, facts.animations, facts.allGlass, facts.nodes], [12, 1, 1, 0, 2]);
+    assert.deepEqual([facts.triangles, facts.meshes, facts.animations, facts.allGlass, facts.nodes], [12, 1, [{ name: '', duration: 0 }], 0, 2]);
     assert.deepEqual(facts.variants, ['blue', 'red']);
     assert.deepEqual(facts.extensionsUsed, parts.json.extensionsUsed);
     assert.deepEqual(facts.boundsMin.concat(facts.boundsMax), [-1, -1, -1, 1, 1, 1]);
-    assert.deepEqual(facts.notes, ["'facts.glb': ignored: 1 animation, 2 variants, KHR_materials_clearcoat of 1 material"]);
+    assert.deepEqual(facts.notes, ["'facts.glb': ignored: 2 variants, KHR_materials_clearcoat of 1 material"]);
     assert.deepEqual(facts.materials, [{ index: 0, name: 'coated', drawn: 'KHR_materials_transmission, KHR_materials_volume', ignored: 'KHR_materials_clearcoat' }]);
     assert.deepEqual(facts.objects.map(({ name, made, openEdges }) => [name, made, openEdges]), [['body', 'glass', 0]]);
     assert.deepEqual([facts.cameras[0].name, facts.cameras[0].orthographicHeight], ['side', 3]);
@@ -1146,6 +1147,53 @@ describe('glTF files', () => {
     assert.match(layered.error, /an orthographic projection needs exact/);
     const traced = extent(join(folder, name), ...small, '--camera-index', 'side', '-t', 'reference');
     assert.deepEqual(traced, [left, right, top, bottom]);
+  });
+
+  test('animations are drawn at a time', () => {
+    const name = write('moving.glb', moving());
+    write('still.glb', moving((json) => {
+      delete json.animations;
+      json.nodes[0].translation = [1, 0, 0];
+    }));
+    const camera = ['--camera', '0,1,9', '--target', '1,0,0', ...small];
+    const draw = (model, ...more) => {
+      const { code, out, error } = vitrine(['render', model, ...camera, ...more, '-o', '-']);
+      assert.equal(code, 0, error);
+      return out;
+    };
+    const at = draw(name, '--time', '0.5');
+    assert.deepEqual(at, draw('still.glb'));
+    assert.deepEqual(at, draw(name, '--time', '0.5', '--animation', 'along'));
+    assert.deepEqual(draw(name, '--animation', '1'), draw(name, '--time', '0', '--animation', 'up'));
+    assert.deepEqual(draw(name), draw(name, '--animation', 'none'));
+    assert.deepEqual(draw(name, '--time', '1'), draw(name, '--time', '77')); // the end
+    assert.notDeepEqual(at, draw(name, '--time', '0.5', '--animation', 'up'));
+    for (const technique of ['reference', 'wyman', 'layered']) {
+      assert.deepEqual(draw(name, '--time', '0.5', '-t', technique), draw('still.glb', '-t', technique));
+    }
+    const placed = ['--object', `${name}:at=0,0.5,0`, '--object', 'sphere:at=0,-1,0'];
+    assert.deepEqual(vitrine(['render', ...placed, ...camera, '--time', '0.5', '-o', '-']).out,
+      vitrine(['render', '--object', 'still.glb:at=0,0.5,0', '--object', 'sphere:at=0,-1,0', ...camera, '-o', '-']).out);
+    // The view shows all times, whichever is drawn.
+    const [left] = extent(join(folder, name), ...small, '--time', '0'), [, right] = extent(join(folder, name), ...small, '--time', '1');
+    assert.ok(left >= 0 && right <= 63 && right - left > 40, `${left} to ${right}`);
+    const rows = JSON.parse(vitrine(['bench', name, ...small, '--rounds', '1', '-t', 'exact', '--time', '1', '--json']).text);
+    assert.ok(rows);
+    assert.deepEqual(JSON.parse(vitrine(['inspect', name, '--json']).text).animations, [{ name: 'along', duration: 1 }, { name: 'up', duration: 1 }]);
+    assert.match(vitrine(['render', name, ...small, '-o', 'rest.png']).error, /ignored: 2 animations/);
+    assert.equal(vitrine(['render', name, ...small, '--time', '0', '-o', 'rest.png']).error, '');
+  });
+
+  test('what cannot be played is told', () => {
+    const name = write('moving.glb', moving());
+    refuses(['render', name, '--animation', 'sideways'], ["--animation is 'sideways'", '0 along, 1 up']);
+    refuses(['render', name, '--time', '-1'], ['--time is -1', 'from 0']);
+    refuses(['render', name, '--time', '1', '--animation', 'none'], ['--time and --animation none contradict']);
+    refuses(['render', 'sphere', '--time', '1'], ['--time is given', 'nothing that is drawn has animations']);
+    refuses(['render', 'sphere', '--animation', 'walk'], ["--animation is 'walk'", 'nothing that is drawn has animations']);
+    const broken = write('broken.glb', moving((json) => (json.animations[0].samplers[0].output = 2)));
+    refuses(['render', broken, '--time', '0'], ["model 'broken.glb': animation 0, along, sampler 0", '2 values of 1 numbers for 2 keys of 3']);
+    assert.equal(vitrine(['render', broken, '--animation', 'none', ...small, '-o', 'broken.png']).code, 0);
   });
 
   test('docs/gltf.md has the list of what is drawn', () => {

@@ -6,8 +6,10 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { PNG } from 'pngjs';
 import * as shapes from '../scripts/glb.mjs';
 import { glb, gltf } from '../scripts/glb.mjs';
+import { moving } from './moving-model.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
@@ -55,6 +57,31 @@ describe('frames', () => {
     // Slopes are 2 at the first key and 0 at the second: 4 + (2 - 0) / 8.
     assert.equal(same(1, 4.25, '35').error, '');
     assert.equal(same(1, 4, '35').code, 1, 'another place is seen');
+  });
+
+  test('animations of files: each frame is at its time, all there are, and the shutter blurs them', () => {
+    writeFileSync(join(folder, 'moving.glb'), moving());
+    const seen = ['--camera', '0,1,9', '--target', '1,0,0', ...small];
+    assert.match(vitrine(['moving.glb', '-o', 'moving/{frame}.png', '--fps', '4', ...seen]).error, /5 of 5 pictures/);
+    const same = (frame, time, ...more) => vitrine(['moving.glb', '-o', 'at.png', '--time', time, ...more, ...seen, '--reference', `moving/000${frame}.png`, '--reference-threshold', '0']).code === 0;
+    assert.ok(same(0, '0') && same(1, '0.25') && same(4, '1') && !same(1, '0.5'));
+    assert.equal(vitrine(['moving.glb', '-o', 'moving/{frame}.png', '--fps', '4', '--animation', 'up', '--time', '0.5', '--frames', '1:1', ...seen]).code, 0);
+    assert.ok(same(1, '0.75', '--animation', 'up'));
+    // A turntable turns it at rest, unless an animation is named.
+    vitrine(['moving.glb', '-o', 'moving/{frame}.png', '--turntable', '4', '--frames', '0:1', '--fps', '1', ...seen]);
+    assert.ok(same(0, '0'));
+    refuses(['moving.glb', '-o', 'x-{frame}.png', '--frames', '60:', '--fps', '4'], "'moving.glb' has no frame 60");
+    refuses(['moving.glb', '-o', 'x-{frame}.png', '--animation', 'none'], 'nothing moves');
+    // While the shutter is open the cube comes a quarter of its way; 24 samples of that cover more than it.
+    const covered = (name, ...more) => {
+      const light = ['-e', 'checker', '--background', '#ff00ff', '--samples', '8', '--redraw'];
+      assert.equal(vitrine(['moving.glb', '-o', `${name}/{frame}.png`, '--fps', '2', '--frames', '0:0', ...seen, ...light, ...more]).code, 0);
+      const { data } = PNG.sync.read(readFileSync(join(folder, name, '0000.png')));
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) count += data[i] !== 255 || data[i + 1] !== 0 || data[i + 2] !== 255;
+      return count;
+    };
+    assert.ok(covered('open', '--shutter', '1') > 1.3 * covered('closed'), `${covered('open', '--shutter', '1')} of ${covered('closed')} pixels`);
   });
 
   test('motion blur: samples over the shutter', () => {
@@ -126,6 +153,24 @@ describe('gone on with', () => {
   }
 });
 
+test('a full disk: a sentence, whole pictures stay, and it goes on once there is room', (context) => {
+  const disk = join(folder, 'disk');
+  mkdirSync(disk);
+  if (spawnSync('mount', ['-t', 'tmpfs', '-o', 'size=64k', 'vitrine', disk]).status !== 0) return context.skip('this user cannot mount a small disk');
+  try {
+    const args = ['knot', '-o', 'disk/{frame}.png', '--turntable', '24', '-r', '64,64'];
+    const full = vitrine(args);
+    assert.equal(full.code, 1);
+    assert.match(full.error, /'disk\/\d{4}\.png' cannot be written: No space left on device/);
+    const drawn = readdirSync(disk);
+    assert.ok(drawn.length > 2 && drawn.length < 24 && drawn.every((name) => /^\d{4}\.png$/.test(name)), drawn.join(' '));
+    spawnSync('mount', ['-o', 'remount,size=1m', disk]);
+    assert.match(vitrine(args).error, new RegExp(`${24 - drawn.length} drawn, ${drawn.length} kept`));
+  } finally {
+    spawnSync('umount', [disk]);
+  }
+});
+
 describe('parts', () => {
   const whole = () => contents('turn');
 
@@ -189,13 +234,13 @@ describe('films', () => {
 });
 
 test('what makes no series', () => {
-  refuses(['sphere', 'knot', '-o', 'x.png'], "-o 'x.png' names one file, but 2 models are named", '{name}', '--object');
+  refuses(['sphere', 'knot', '-o', 'x.png'], "'knot' is a second model, but -o 'x.png' names one file", '{name}', '--object');
   refuses(['a/x.glb', 'b/x.glb', '-o', '{name}.png'], "'a/x.glb' and 'b/x.glb'", 'the same {name}');
   refuses(['sphere', '-o', 'x{size}.png', '--turntable', '2'], "'{size}.png' means nothing");
   refuses(['sphere', '--turntable', '2'], 'no output given');
   refuses(['sphere', '-o', '-', '--turntable', '2'], '-o - takes one picture');
-  refuses(['sphere', '-o', 'x.png', '--frames', '0:3'], '--frames: nothing moves', '--turntable');
-  refuses(['sphere', '-o', 'x.mp4'], 'x.mp4: nothing moves');
+  refuses(['sphere', '-o', 'x.png', '--frames', '0:3'], "nothing moves in 'sphere'", '--turntable');
+  refuses(['sphere', '-o', 'x.mp4'], "nothing moves in 'sphere'");
   refuses(['sphere', '-o', 'x.png', '--turntable', '4', '--frames', '3:1'], "--frames is '3:1'", 'which is 3');
   refuses(['sphere', '-o', 'x.png', '--turntable', '4', '--shutter', '0.5'], '--samples 16');
   refuses(['sphere', '-o', 'x.png', '--part', '1/2'], '--part is of many pictures');

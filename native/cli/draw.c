@@ -1,5 +1,6 @@
 #include "cli/draw.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -7,24 +8,47 @@
 #include "image/image.h"
 #include "lab/metrics/timing.h"
 
-/// One sample at a time, each finished before the next, each at its moment.
-static vtResult drawSamples(const vtDrawing* drawing, vtRenderer* renderer, const vtFrame* frame,
-                            float* floats, uint8_t* pixels, vtError* error)
+/// Moves scene and eye to a frame; between two frames, too.
+static vtResult moveTo(const vtDrawing* drawing, vtSession* session, double number, vtFrame* frame,
+                       vtError* error)
 {
-    const double start = vtNow();
-    const float shutter = drawing->options->shutter;
+    const vtOptions* options = drawing->options;
+    const double seconds = fmax((double)options->time, 0.0) + number / (double)options->fps;
+    vtResult result = vt_ok;
+    if (session->input.motion.count > 0) {
+        result = vtSession_SetTime(session, options, seconds, error);
+    }
+    if (result == vt_ok && session->input.motion.count > 0 &&
+        options->cameraOfFile != NULL) { // it may move, too
+        vtFrame seen;
+        result = vtMakeFrame(options, &session->input, &seen, error);
+        frame->view = seen.view;
+        frame->orthographicHeight = seen.orthographicHeight;
+    }
+    vtCameraPath_SetView(drawing->eye, number, frame);
+    return result;
+}
+
+/// One sample at a time, each finished before the next, each at its moment while the shutter is open.
+static vtResult drawSamples(const vtDrawing* drawing, vtSession* session, const vtFrame* frame, float* floats,
+                            uint8_t* pixels, vtError* error)
+{
+    const double start = vtNow(), shutter = (double)drawing->options->shutter;
     vtResult result = vt_ok;
     vtFrame part = *frame;
     part.samples = 1;
-    part.moving = drawing->motion != NULL && shutter > 0.0f;
+    part.moving = drawing->eye != NULL && shutter > 0.0;
     for (; part.firstSample < frame->samples && result == vt_ok; ++part.firstSample) {
         const bool last = part.firstSample == frame->samples - 1;
         if (part.moving) {
             const double moment = ((double)part.firstSample + 0.5) / (double)frame->samples;
-            vtMotion_SetView(drawing->motion, drawing->number + (double)shutter * moment, &part);
+            result = moveTo(drawing, session, (double)drawing->number + shutter * moment, &part, error);
         }
-        result = floats != NULL ? vtRenderer_DrawFloats(renderer, &part, last ? floats : NULL, error)
-                                : vtRenderer_DrawImage(renderer, &part, last ? pixels : NULL, error);
+        if (result == vt_ok) {
+            result = floats != NULL
+                         ? vtRenderer_DrawFloats(session->renderer, &part, last ? floats : NULL, error)
+                         : vtRenderer_DrawImage(session->renderer, &part, last ? pixels : NULL, error);
+        }
         if (drawing->showsProgress && frame->samples > 1) {
             vtShowProgress("drawing", (float)(part.firstSample + 1) / (float)frame->samples, start);
         }
@@ -41,8 +65,8 @@ static vtResult encode(const vtDrawing* drawing, const vtFrame* frame, const flo
                                           drawing->comment, &picture->bytes, &picture->size, error);
 }
 
-static vtResult render(const vtDrawing* drawing, vtRenderer* renderer, const vtFrame* frame,
-                       vtPicture* picture, vtError* error)
+static vtResult render(const vtDrawing* drawing, vtSession* session, const vtFrame* frame, vtPicture* picture,
+                       vtError* error)
 {
     const size_t count = 4 * (size_t)frame->width * (size_t)frame->height;
     const bool takesFloats = drawing->format != vt_formatPng;
@@ -50,11 +74,11 @@ static vtResult render(const vtDrawing* drawing, vtRenderer* renderer, const vtF
     picture->pixels = malloc(count);
     vtResult result = vt_ok;
     if (picture->pixels == NULL || (takesFloats && floats == NULL)) {
-        result = vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", frame->width,
-                        frame->height);
+        result =
+            vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", frame->width, frame->height);
     }
     if (result == vt_ok) {
-        result = drawSamples(drawing, renderer, frame, floats, picture->pixels, error);
+        result = drawSamples(drawing, session, frame, floats, picture->pixels, error);
     }
     if (result == vt_ok) {
         result = encode(drawing, frame, floats, picture, error);
@@ -67,7 +91,8 @@ static vtResult trace(const vtDrawing* drawing, const vtInput* input, const vtFr
                       vtPicture* picture, vtError* error)
 {
     float* floats = NULL;
-    vtResult result = vtTrace(drawing->options, input, frame, drawing->showsProgress, &picture->traced, error);
+    vtResult result =
+        vtTrace(drawing->options, input, frame, drawing->showsProgress, &picture->traced, error);
     if (result == vt_ok) {
         result = vtTracePixels(&picture->traced, frame, &picture->pixels, error);
     }
@@ -81,11 +106,17 @@ static vtResult trace(const vtDrawing* drawing, const vtInput* input, const vtFr
     return result;
 }
 
-vtResult vtDrawPicture(const vtDrawing* drawing, const vtSession* session, const vtFrame* frame,
-                       vtPicture* picture, vtError* error)
+vtResult vtDrawPicture(const vtDrawing* drawing, vtSession* session, vtFrame* frame, vtPicture* picture,
+                       vtError* error)
 {
     vtDestroyPicture(picture);
-    return session->renderer != NULL ? render(drawing, session->renderer, frame, picture, error)
+    if (drawing->eye != NULL) {
+        const vtResult result = moveTo(drawing, session, (double)drawing->number, frame, error);
+        if (result != vt_ok) {
+            return result;
+        }
+    }
+    return session->renderer != NULL ? render(drawing, session, frame, picture, error)
                                      : trace(drawing, &session->input, frame, picture, error);
 }
 

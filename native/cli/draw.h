@@ -1,7 +1,7 @@
 // One picture, from a frame to the bytes of its file.
 #pragma once
 
-#include "cli/motion.h"
+#include "cli/camera_path.h"
 #include "cli/picture_output.h"
 #include "cli/session.h"
 #include "lab/reference/reference.h"
@@ -10,10 +10,10 @@
 typedef struct vtDrawing {
     const vtOptions* options;
     vtPictureFormat format;
-    const vtMotion* motion; ///< while the shutter is open; NULL: nothing moves
-    double number;          ///< of the frame in the motion
-    const char* comment;    ///< in the file; NULL: none
-    bool showsProgress;     ///< on standard error
+    const vtCameraPath* eye; ///< NULL: it is no frame of something that moves
+    int number;              ///< of the frame, whose time is so many frames after --time
+    const char* comment;     ///< in the file; NULL: none
+    bool showsProgress;      ///< on standard error
 } vtDrawing;
 
 /// What is drawn. Starts as {0}; vtDestroyPicture frees it.
@@ -24,8 +24,8 @@ typedef struct vtPicture {
     vtReferenceImage traced; ///< of the reference alone
 } vtPicture;
 
-/// Draws with the session's renderer, or traces where the session has none. *picture is
-/// filled anew.
-vtResult vtDrawPicture(const vtDrawing* drawing, const vtSession* session, const vtFrame* frame,
-                       vtPicture* picture, vtError* error);
+/// Draws with the session's renderer, or traces where the session has none. What moves is moved to the
+/// frame's time, and the eye of *frame, too. *picture is filled anew.
+vtResult vtDrawPicture(const vtDrawing* drawing, vtSession* session, vtFrame* frame, vtPicture* picture,
+                       vtError* error);
 void vtDestroyPicture(vtPicture* picture);

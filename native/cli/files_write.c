@@ -113,7 +113,8 @@ vtResult vtFinishFile(vtUnfinishedFile* file, vtError* error)
 vtResult vtMakeFolders(const char* path, vtError* error)
 {
     char folder[PATH_MAX];
-    for (const char* slash = strchr(path + (*path == '/'), '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+    for (const char* slash = strchr(path + (*path == '/'), '/'); slash != NULL;
+         slash = strchr(slash + 1, '/')) {
         snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
         if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
             return vtFail(error, vt_errorFile, "folder '%s' cannot be made: %s", folder, strerror(errno));

@@ -43,10 +43,12 @@ static vtResult failCamera(const vtScene* scene, const char* text, vtError* erro
         text, names);
 }
 
-/// The eye that the options ask for, else the file's camera, else one that shows the whole scene.
-static vtResult chooseView(const vtOptions* options, const vtScene* scene, float aspect, vtFrame* frame,
+/// The eye that the options ask for, else the file's camera, else one that shows the whole scene, at rest
+/// where it moves.
+static vtResult chooseView(const vtOptions* options, const vtInput* input, float aspect, vtFrame* frame,
                            vtError* error)
 {
+    const vtScene* scene = &input->scene;
     const vtView* given = &options->frame.view;
     vtView* view = &frame->view;
     if (options->cameraOfFile != NULL) {
@@ -61,7 +63,8 @@ static vtResult chooseView(const vtOptions* options, const vtScene* scene, float
         frame->orthographicHeight = options->hasFov ? 0.0f : camera->orthographicHeight;
         return vt_ok;
     }
-    const vtView whole = vtViewOfScene(scene, given->fovY, aspect);
+    const vtView whole =
+        input->motion.count > 0 ? input->motion.view : vtViewOfScene(scene, given->fovY, aspect);
     const vtVec3 target = options->hasTarget ? given->target : whole.target;
     const vtVec3 offset = vtSub(whole.eye, whole.target);
     const vtVec3 eye = options->hasCamera ? given->eye : vtAdd(target, offset);
@@ -90,6 +93,6 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     }
     frame->samples = isReference ? 1 : options->samples; // the reference takes more
     const float aspect = (float)frame->width / (float)frame->height;
-    vtResult result = chooseView(options, &input->scene, aspect, frame, error);
+    vtResult result = chooseView(options, input, aspect, frame, error);
     return result == vt_ok ? vtValidateFrame(frame, error) : result;
 }

@@ -108,6 +108,16 @@ static void printCameras(const vtScene* scene)
     }
 }
 
+static void printAnimations(const vtModelFacts* facts)
+{
+    if (facts->animationCount > 0) {
+        printf("\n%8s %10s  %s\n", "animation", "seconds", "name");
+    }
+    for (uint32_t i = 0; i < facts->animationCount; ++i) {
+        printf("%9u %10.4g  %s\n", i, facts->animations[i].duration, facts->animations[i].name);
+    }
+}
+
 static void printText(const char* name, const vtScene* scene, const vtModelFacts* facts)
 {
     const Sums sums = sumUp(scene);
@@ -128,6 +138,7 @@ static void printText(const char* name, const vtScene* scene, const vtModelFacts
     printObjects(scene);
     printMaterials(facts);
     printCameras(scene);
+    printAnimations(facts);
 }
 
 // ------------------------------------------------------------------------------------------------- JSON
@@ -203,6 +214,18 @@ static void writeCameras(vtJson* json, const vtScene* scene)
     vtJson_EndArray(json);
 }
 
+static void writeAnimations(vtJson* json, const vtModelFacts* facts)
+{
+    vtJson_BeginArray(json, "animations");
+    for (uint32_t i = 0; i < facts->animationCount; ++i) {
+        vtJson_BeginObject(json, NULL);
+        vtJson_Text(json, "name", facts->animations[i].name);
+        vtJson_Number(json, "duration", facts->animations[i].duration, 6);
+        vtJson_EndObject(json);
+    }
+    vtJson_EndArray(json);
+}
+
 static void printJson(const char* name, const vtScene* scene, const vtModelFacts* facts)
 {
     const Sums sums = sumUp(scene);
@@ -216,7 +239,6 @@ static void printJson(const char* name, const vtScene* scene, const vtModelFacts
         {"textures", facts->textureCount},
         {"images", facts->imageCount},
         {"skins", facts->skinCount},
-        {"animations", facts->animationCount},
         {"lights", facts->lightCount},
     };
     vtJson json = {.out = stdout};
@@ -238,6 +260,7 @@ static void printJson(const char* name, const vtScene* scene, const vtModelFacts
     writeObjects(&json, scene);
     writeMaterials(&json, facts);
     writeCameras(&json, scene);
+    writeAnimations(&json, facts);
     vtJson_EndObject(&json);
     printf("\n");
 }

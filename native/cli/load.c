@@ -1,5 +1,6 @@
 #include "cli/load.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,7 +85,9 @@ static vtResult findWalls(const char* word, vtWalls* walls, vtError* error)
                : vtFail(error, vt_errorArgument, "--walls is '%.100s'; it must be auto, thin or solid", word);
 }
 
-static vtResult loadModel(const Named* named, const void* bytes, size_t size, vtScene* scene, vtError* error)
+/// *model: where animations are played.
+static vtResult loadModel(const Named* named, const void* bytes, size_t size, vtScene* scene, vtModel** model,
+                          vtError* error)
 {
     vtModelFolders folders;
     vtWalls walls;
@@ -102,7 +105,10 @@ static vtResult loadModel(const Named* named, const void* bytes, size_t size, vt
                             .variant = named->options->variant,
                             .readFile = vtReadFileForModel,
                             .userData = &folders};
-    result = result == vt_ok ? vtLoadScene(&def, scene, error) : result;
+    if (result == vt_ok) {
+        result =
+            named->options->plays ? vtOpenModel(&def, model, scene, error) : vtLoadScene(&def, scene, error);
+    }
     if (result == vt_ok) {
         vtScene_SetWalls(scene, walls);
     }
@@ -110,7 +116,7 @@ static vtResult loadModel(const Named* named, const void* bytes, size_t size, vt
 }
 
 /// A model or a picture of heights, by what it begins with: standard input has no name.
-static vtResult loadFile(const Named* named, vtScene* scene, vtError* error)
+static vtResult loadFile(const Named* named, vtScene* scene, vtModel** model, vtError* error)
 {
     uint8_t* bytes;
     size_t size;
@@ -125,7 +131,7 @@ static vtResult loadFile(const Named* named, vtScene* scene, vtError* error)
         const vtReliefDef def = vtMakeReliefDef(named->options, named->spec, -1);
         result = vtLoadReliefFile(named->name, bytes, size, &def, scene, error);
     } else if (result == vt_ok) {
-        result = loadModel(named, bytes, size, scene, error);
+        result = loadModel(named, bytes, size, scene, model, error);
     }
     vtFree(bytes);
     return result;
@@ -240,8 +246,9 @@ static vtResult failUnknown(const char* what, const char* name, vtError* error)
 }
 
 /// What a name names: built in, or in a file.
-static vtResult loadNamed(const Named* named, vtScene* scene, vtError* error)
+static vtResult loadNamed(const Named* named, vtScene* scene, vtModel** model, vtError* error)
 {
+    *model = NULL;
     const int pattern = vtFindReliefPattern(named->name);
     if (pattern >= 0 || isShape(named->name)) {
         *named->contents = vtHashText(*named->contents, named->name);
@@ -255,14 +262,14 @@ static vtResult loadNamed(const Named* named, vtScene* scene, vtError* error)
         const vtResult result = checkKind(named, vt_kindMesh, error);
         return result == vt_ok ? loadShape(named->name, 0, scene, error) : result;
     }
-    return loadFile(named, scene, error);
+    return loadFile(named, scene, model, error);
 }
 
 /// Loads what one --object names and puts it into the scene.
-static vtResult addObject(const vtOptions* options, const char* text, vtScene* scene, uint64_t* contents,
-                          vtError* error)
+static vtResult addObject(const vtOptions* options, const char* text, vtInput* input, vtError* error)
 {
     vtObjectSpec spec;
+    vtModel* model = NULL;
     vtScene added = {0};
     vtResult result = vtParseObject(text, "--object", access(text, R_OK) == 0, &spec, error);
     if (result != vt_ok) {
@@ -274,22 +281,28 @@ static vtResult addObject(const vtOptions* options, const char* text, vtScene* s
         snprintf(what, sizeof what, "--object '%.200s':", text);
         return failUnknown(what, spec.name, error);
     }
-    result = loadNamed(&(Named){options, &spec, spec.name, contents}, &added, error);
+    result = loadNamed(&(Named){options, &spec, spec.name, &input->contents}, &added, &model, error);
     if (result == vt_ok) {
         vtObjectSpec_Apply(&spec, &added);
-        result = spec.image[0] != '\0' ? vtAddObjectImage(spec.image, &added, contents, error) : vt_ok;
+        result =
+            spec.image[0] != '\0' ? vtAddObjectImage(spec.image, &added, &input->contents, error) : vt_ok;
     }
     if (result == vt_ok) {
         printNotes(spec.name, &added, options->verbose);
-        const vtTransform place = vtObjectSpec_Place(&spec);
-        result = vtScene_Append(scene, &added, &place, error);
+        const vtTransform transform = vtObjectSpec_Place(&spec);
+        const vtModelPlace place = vtScene_NextPlace(&input->scene, &transform);
+        result = vtScene_Append(&input->scene, &added, &transform, error);
+        vtMotion_Add(&input->motion, model, &place);
+        model = NULL;
     }
+    vtCloseModel(model);
     vtDestroyScene(&added);
     return result;
 }
 
-static vtResult loadMain(const vtOptions* options, vtScene* scene, uint64_t* contents, vtError* error)
+static vtResult loadMain(const vtOptions* options, vtInput* input, vtError* error)
 {
+    vtScene* scene = &input->scene;
     const char* model = options->model;
     if (model == NULL && options->objectCount == 0) {
         return vtFail(
@@ -308,19 +321,41 @@ static vtResult loadMain(const vtOptions* options, vtScene* scene, uint64_t* con
     if (!isBuiltIn && strpbrk(model, "./-") == NULL && access(model, R_OK) != 0) {
         return failUnknown("model", model, error);
     }
-    return loadNamed(&(Named){options, NULL, model, contents}, scene, error);
+    vtModel* moving;
+    const vtModelPlace place = vtScene_NextPlace(scene, NULL);
+    const vtResult result =
+        loadNamed(&(Named){options, NULL, model, &input->contents}, scene, &moving, error);
+    vtMotion_Add(&input->motion, moving, &place);
+    return result;
 }
 
-static vtResult loadObjects(const vtOptions* options, vtScene* scene, uint64_t* contents, vtError* error)
+static vtResult loadObjects(const vtOptions* options, vtInput* input, vtError* error)
 {
-    vtResult result = loadMain(options, scene, contents, error);
+    vtResult result = loadMain(options, input, error);
     if (result == vt_ok && options->model != NULL) {
-        printNotes(options->model, scene, options->verbose);
+        printNotes(options->model, &input->scene, options->verbose);
     }
     for (int i = 0; i < options->objectCount && result == vt_ok; ++i) {
-        result = addObject(options, options->objects[i], scene, contents, error);
+        result = addObject(options, options->objects[i], input, error);
     }
     return result;
+}
+
+/// What is played, and the scene as it begins.
+static vtResult beginMotion(const vtOptions* options, vtInput* input, vtError* error)
+{
+    vtMotion* motion = &input->motion;
+    const float aspect = (float)options->frame.width / (float)options->frame.height;
+    vtResult result = vtMotion_Choose(motion, options, error);
+    if (result != vt_ok || motion->count == 0) {
+        return result;
+    }
+    result = vtMotion_Survey(motion, options->frame.view.fovY, aspect, &input->scene, error);
+    if (isnan(input->ground.height)) {
+        input->ground.height = motion->lowest;
+    }
+    return result == vt_ok ? vtMotion_SetTime(motion, fmax(options->time, 0.0), &input->scene, error)
+                           : result;
 }
 
 /// Says what a technique does not draw of the scene's materials.
@@ -401,22 +436,27 @@ static vtResult loadBackground(const char* text, vtImage* picture, uint64_t* con
 
 vtResult vtSetInputModel(const vtOptions* options, vtInput* input, vtError* error)
 {
-    vtScene scene = {0};
-    uint64_t contents = VT_NO_HASH;
-    vtResult result = loadObjects(options, &scene, &contents, error);
+    vtInput fresh = {.ground = options->ground.ground, .contents = VT_NO_HASH};
+    vtResult result = loadObjects(options, &fresh, error);
     if (result == vt_ok) {
-        result = vtValidateScene(&scene, error);
+        result = vtValidateScene(&fresh.scene, error);
     }
     if (result == vt_ok) {
-        result = prepareMeshes(options, &scene, error);
+        result = beginMotion(options, &fresh, error);
+    }
+    if (result == vt_ok) {
+        result = prepareMeshes(options, &fresh.scene, error);
     }
     if (result != vt_ok) {
-        vtDestroyScene(&scene);
+        vtDestroyInput(&fresh);
         return result;
     }
+    vtDestroyMotion(&input->motion);
     vtDestroyScene(&input->scene);
-    input->scene = scene;
-    input->contents = contents;
+    input->scene = fresh.scene;
+    input->motion = fresh.motion;
+    input->ground = fresh.ground;
+    input->contents = fresh.contents;
     return vtSucceed(error);
 }
 
@@ -437,8 +477,17 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
     return vtSucceed(error);
 }
 
+vtResult vtInput_SetTime(vtInput* input, const vtOptions* options, double seconds, vtError* error)
+{
+    const vtResult result = vtMotion_SetTime(&input->motion, seconds, &input->scene, error);
+    const bool isWyman = options->innerDistances || vtFindTechnique(options->technique) == vt_techniqueWyman;
+    return result == vt_ok && isWyman ? vtPrepareScene(&input->scene, vt_techniqueWyman, NULL, error)
+                                      : result;
+}
+
 void vtDestroyInput(vtInput* input)
 {
+    vtDestroyMotion(&input->motion);
     vtDestroyScene(&input->scene);
     vtDestroyEnvironment(&input->environment);
     vtFree(input->background.pixels);

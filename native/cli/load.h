@@ -1,22 +1,28 @@
 // From names on the command line to a scene.
 #pragma once
 
-#include "cli/options.h"
+#include "cli/motion.h"
 
 typedef struct vtInput {
     vtScene scene;
     vtEnvironment environment;
     vtImage background;    ///< its pixels NULL: no picture
     float ior;             ///< of the command line; 0: each object's own
+    vtGround ground;       ///< of the command line; below a scene that moves, at its lowest point ever
+    vtMotion motion;       ///< of the scene
     uint64_t contents;     ///< hash of the scene's files, see cli/hash.h
     uint64_t surroundings; ///< and of those of environment and background
 } vtInput;
 
-/// Loads models and environment, prints notes (computed normals) and warnings (an open mesh) to stderr.
+/// Loads models and environment, prints notes (computed normals) and warnings (an open mesh) to stderr. Where
+/// animations are played (options->plays) the scene is as at --time, or 0.
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error);
 /// Loads another model in the scene's place; on failure the one before stays.
 vtResult vtSetInputModel(const vtOptions* options, vtInput* input, vtError* error);
 void vtDestroyInput(vtInput* input);
+
+/// Moves the scene to another time of its animations, which are played. What a technique needs it has again.
+vtResult vtInput_SetTime(vtInput* input, const vtOptions* options, double seconds, vtError* error);
 
 /// The index of refraction that all glass is drawn with; 0 where objects differ, or none is glass.
 float vtCommonIor(const vtInput* input);

@@ -1,7 +1,3 @@
-// The eye between its keys goes along a cubic through them, whose slope at a key is that from the key before
-// to the one behind it: Catmull & Rom, "A Class of Local Interpolating Splines", 1974.
-// Departures: the keys' times are their parameters, whatever their distances; at the ends the slope is that
-// of the first and the last piece.
 #include "cli/motion.h"
 
 #include <math.h>
@@ -11,202 +7,118 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "cli/files.h"
+#include "scene/camera.h"
+#include "scene/objects.h"
 
-enum { mostKeys = 100000 };
-
-// --------------------------------------------------------------------------------------------- the keys
-
-/// Reads a line "SECONDS X,Y,Z X,Y,Z [DEGREES]", the eye and what it looks at.
-static bool readKey(const char* line, vtCameraKey* key)
+void vtMotion_Add(vtMotion* motion, vtModel* model, const vtModelPlace* place)
 {
-    vtView* view = &key->view;
-    int end = 0;
-    *key = (vtCameraKey){0};
-    if (sscanf(line, "%lf %f,%f,%f %f,%f,%f %n", &key->time, &view->eye.x, &view->eye.y, &view->eye.z,
-               &view->target.x, &view->target.y, &view->target.z, &end) != 7 ||
-        end == 0) {
-        return false;
+    if (vtModel_Animation(model, 0) == NULL) {
+        vtCloseModel(model);
+        return;
     }
-    if (line[end] != '\0') {
-        int more = 0;
-        if (sscanf(line + end, "%f %n", &view->fovY, &more) != 1 || line[end + more] != '\0' ||
-            !(view->fovY >= 1.0f && view->fovY <= 170.0f)) {
-            return false;
-        }
-    }
-    const float all[6] = {view->eye.x,    view->eye.y,    view->eye.z,
-                          view->target.x, view->target.y, view->target.z};
-    bool isFinite = isfinite(key->time);
-    for (int i = 0; i < 6; ++i) {
-        isFinite = isFinite && isfinite(all[i]);
-    }
-    return isFinite;
+    motion->models[motion->count++] = (vtMovingModel){model, *place, -1};
 }
 
-static vtResult addKey(const char* path, int row, const char* line, vtMotion* motion, vtError* error)
+/// The animation of that name, else of that number; -1: there is none.
+static int findAnimation(const vtModel* model, const char* text)
 {
-    vtCameraKey* key = &motion->keys[motion->keyCount];
-    if (motion->keyCount == mostKeys) {
-        return vtFail(error, vt_errorArgument, "--camera-keys '%.200s' has more than %d keys", path, mostKeys);
+    char* end;
+    const vtAnimation* animation;
+    for (int i = 0; (animation = vtModel_Animation(model, i)) != NULL; ++i) {
+        if (strcmp(animation->name, text) == 0) {
+            return i;
+        }
     }
-    if (!readKey(line, key)) {
-        return vtFail(error, vt_errorArgument,
-                      "--camera-keys '%.200s', line %d is '%.100s'; it must be SECONDS X,Y,Z X,Y,Z, the eye "
-                      "and what it looks at, and may end with a field of view of 1 to 170 degrees",
-                      path, row, line);
-    }
-    if (motion->keyCount > 0 && key->time <= key[-1].time) {
-        return vtFail(error, vt_errorArgument,
-                      "--camera-keys '%.200s', line %d: its time, %g s, is not after that of the key before, "
-                      "%g s",
-                      path, row, key->time, key[-1].time);
-    }
-    ++motion->keyCount;
-    return vt_ok;
+    const long number = strtol(text, &end, 10);
+    const bool isNumber = end != text && *end == '\0' && number >= 0 && number < INT32_MAX;
+    return isNumber && vtModel_Animation(model, (int)number) != NULL ? (int)number : -1;
 }
 
-static vtResult readKeys(const char* path, vtMotion* motion, vtError* error)
+static vtResult failAnimation(const vtMotion* motion, const char* text, vtError* error)
 {
-    uint8_t* bytes;
-    size_t size;
-    vtResult result = vtReadFile(path, &bytes, &size, error);
-    if (result != vt_ok) {
-        return result;
-    }
-    size_t lines = 1;
-    for (size_t i = 0; i < size; ++i) {
-        lines += bytes[i] == '\n';
-    }
-    motion->keys = calloc(lines < mostKeys ? lines + 1 : mostKeys + 1, sizeof *motion->keys);
-    char* text = calloc(size + 1, 1);
-    if (motion->keys == NULL || text == NULL) {
-        result = vtFail(error, vt_errorMemory, "--camera-keys '%.200s': out of memory", path);
-    } else {
-        memcpy(text, bytes, size);
-    }
-    int row = 0;
-    for (char* line = text; line != NULL && result == vt_ok;) {
-        char* next = strchr(line, '\n');
-        if (next != NULL) {
-            *next++ = '\0';
+    char names[512] = "";
+    const vtAnimation* animation;
+    for (int k = 0; k < motion->count; ++k) {
+        for (int i = 0; (animation = vtModel_Animation(motion->models[k].model, i)) != NULL; ++i) {
+            const size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%d%s%s", used > 0 ? ", " : "", i,
+                     animation->name[0] != '\0' ? " " : "", animation->name);
         }
-        line[strcspn(line, "#\r")] = '\0';
-        ++row;
-        if (line[strspn(line, " \t")] != '\0') {
-            result = addKey(path, row, line, motion, error);
-        }
-        line = next;
     }
-    free(text);
-    vtFree(bytes);
-    if (result == vt_ok && motion->keyCount == 0) {
-        result = vtFail(error, vt_errorArgument, "--camera-keys '%.200s' has no key", path);
+    return vtFail(error, vt_errorArgument,
+                  "--animation is '%.100s', but the animations in what is drawn are: %s", text, names);
+}
+
+vtResult vtMotion_Choose(vtMotion* motion, const vtOptions* options, vtError* error)
+{
+    bool found = false;
+    motion->duration = 0.0;
+    if (motion->count == 0 && (options->time >= 0.0f || (options->animation != NULL && options->plays))) {
+        return vtFail(error, vt_errorArgument,
+                      options->animation != NULL
+                          ? "--animation is '%.100s', but nothing that is drawn has animations; leave it out"
+                          : "--time is given, but nothing that is drawn has animations; leave it out%.0s",
+                      options->animation != NULL ? options->animation : "");
+    }
+    for (int i = 0; i < motion->count; ++i) {
+        vtMovingModel* moving = &motion->models[i];
+        moving->animation = options->animation != NULL ? findAnimation(moving->model, options->animation) : 0;
+        found |= moving->animation >= 0;
+        if (moving->animation >= 0) {
+            motion->duration =
+                fmax(motion->duration, vtModel_Animation(moving->model, moving->animation)->duration);
+        }
+    }
+    return found || motion->count == 0 ? vt_ok : failAnimation(motion, options->animation, error);
+}
+
+vtResult vtMotion_SetTime(vtMotion* motion, double seconds, vtScene* scene, vtError* error)
+{
+    vtResult result = vtSucceed(error);
+    for (int i = 0; i < motion->count && result == vt_ok; ++i) {
+        const vtMovingModel* moving = &motion->models[i];
+        result = vtModel_SetTime(moving->model, isnan(seconds) ? -1 : moving->animation,
+                                 isnan(seconds) ? 0.0 : seconds, &moving->place, scene, error);
     }
     return result;
 }
 
-vtResult vtMakeMotion(const vtOptions* options, vtMotion* motion, vtError* error)
+static vtResult findLowest(const vtScene* scene, float* lowest, vtError* error)
 {
-    *motion = (vtMotion){.turntable = options->turntable, .fps = (double)options->fps};
-    if (options->cameraKeys == NULL) {
-        return vt_ok;
+    vtPlacedObject* placed;
+    uint32_t glassCount;
+    const vtResult result = vtPlaceObjects(scene, &placed, &glassCount, error);
+    for (uint32_t i = 0; result == vt_ok && i < scene->objectCount; ++i) {
+        *lowest = fminf(*lowest, placed[i].low.y);
     }
-    const char* other = options->turntable > 0         ? "--turntable"
-                        : options->hasCamera           ? "--camera"
-                        : options->hasTarget           ? "--target"
-                        : options->cameraOfFile != NULL ? "--camera-index"
-                                                        : NULL;
-    if (other != NULL) {
-        return vtFail(error, vt_errorArgument,
-                      "--camera-keys and %s both say where the eye is; leave one of them out", other);
+    vtFree(placed);
+    return result;
+}
+
+vtResult vtMotion_Survey(vtMotion* motion, float fovY, float aspect, vtScene* scene, vtError* error)
+{
+    enum { timeCount = 16 };
+    vtView views[1 + timeCount];
+    vtResult result = vt_ok;
+    motion->lowest = INFINITY;
+    for (int i = timeCount; i >= 0 && result == vt_ok; --i) { // rest, which is the first of them, comes last
+        const double seconds = i > 0 ? motion->duration * (i - 1) / (timeCount - 1) : NAN;
+        result = vtMotion_SetTime(motion, seconds, scene, error);
+        if (result == vt_ok) {
+            views[i] = vtViewOfScene(scene, fovY, aspect);
+            result = findLowest(scene, &motion->lowest, error);
+        }
     }
-    const vtResult result = readKeys(options->cameraKeys, motion, error);
-    if (result != vt_ok) {
-        vtDestroyMotion(motion);
+    if (result == vt_ok) {
+        motion->view = vtJoinViews(views, 1 + timeCount, aspect);
     }
     return result;
 }
 
 void vtDestroyMotion(vtMotion* motion)
 {
-    free(motion->keys);
+    for (int i = 0; i < motion->count; ++i) {
+        vtCloseModel(motion->models[i].model);
+    }
     *motion = (vtMotion){0};
-}
-
-// -------------------------------------------------------------------------------------------- the motion
-
-int vtMotion_FrameCount(const vtMotion* motion)
-{
-    if (motion->keyCount > 0) {
-        const double last = floor(motion->keys[motion->keyCount - 1].time * motion->fps + 1e-6);
-        return last < 1e6 ? (int)fmax(last, 0.0) + 1 : 1000000;
-    }
-    return motion->turntable;
-}
-
-static vtVec3 mix(vtVec3 a, vtVec3 b, double share)
-{
-    return vtAdd(vtScale(a, (float)(1.0 - share)), vtScale(b, (float)share));
-}
-
-/// Slope at a key, a second.
-static vtVec3 slopeAt(const vtMotion* motion, size_t i, size_t offset)
-{
-    const vtCameraKey* before = &motion->keys[i > 0 ? i - 1 : i];
-    const vtCameraKey* behind = &motion->keys[i + 1 < motion->keyCount ? i + 1 : i];
-    const vtVec3* from = (const vtVec3*)(const void*)((const char*)before + offset);
-    const vtVec3* to = (const vtVec3*)(const void*)((const char*)behind + offset);
-    return vtScale(vtSub(*to, *from), (float)(1.0 / (behind->time - before->time)));
-}
-
-/// A point of the keys, at `offset` in each, at a share of the piece behind key i.
-static vtVec3 pointAt(const vtMotion* motion, size_t i, double share, size_t offset)
-{
-    const vtCameraKey* key = &motion->keys[i];
-    const vtVec3* from = (const vtVec3*)(const void*)((const char*)key + offset);
-    const vtVec3* to = (const vtVec3*)(const void*)((const char*)(key + 1) + offset);
-    const double length = key[1].time - key->time, s = share, s2 = s * s, s3 = s2 * s;
-    const vtVec3 points = mix(*from, *to, 3.0 * s2 - 2.0 * s3);
-    const vtVec3 first = vtScale(slopeAt(motion, i, offset), (float)(length * (s3 - 2.0 * s2 + s)));
-    const vtVec3 second = vtScale(slopeAt(motion, i + 1, offset), (float)(length * (s3 - s2)));
-    return vtAdd(points, vtAdd(first, second));
-}
-
-static float fovAt(const vtCameraKey* key, double share, float usual)
-{
-    const float from = key->view.fovY > 0.0f ? key->view.fovY : usual;
-    const float to = key[1].view.fovY > 0.0f ? key[1].view.fovY : usual;
-    return from + (float)share * (to - from);
-}
-
-static vtView viewOfKeys(const vtMotion* motion, double time)
-{
-    const vtCameraKey* keys = motion->keys;
-    const size_t last = motion->keyCount - 1;
-    size_t i = 0;
-    while (i < last && keys[i + 1].time < time) {
-        ++i;
-    }
-    vtView view;
-    if (i == last || time <= keys[i].time) {
-        view = keys[i].view;
-        view.fovY = view.fovY > 0.0f ? view.fovY : motion->view.fovY;
-        return view;
-    }
-    const double share = (time - keys[i].time) / (keys[i + 1].time - keys[i].time);
-    view.eye = pointAt(motion, i, share, offsetof(vtCameraKey, view.eye));
-    view.target = pointAt(motion, i, share, offsetof(vtCameraKey, view.target));
-    view.fovY = fovAt(&keys[i], share, motion->view.fovY);
-    return view;
-}
-
-void vtMotion_SetView(const vtMotion* motion, double number, vtFrame* frame)
-{
-    const double turn = 2.0 * 3.14159265358979323846;
-    if (motion->keyCount > 0) {
-        frame->view = viewOfKeys(motion, number / motion->fps);
-    } else if (motion->turntable > 0) {
-        frame->view = vtView_Orbit(motion->view, (float)(turn * number / motion->turntable), 0.0f);
-    }
 }

@@ -1,28 +1,35 @@
-// What moves from frame to frame: the eye, on a turntable or along keys.
+// Models that move: which of their animations are played, and the scene at a time.
 #pragma once
 
 #include "cli/options.h"
 
-/// A place of the eye, at its time.
-typedef struct vtCameraKey {
-    double time; ///< seconds
-    vtView view; ///< fovY 0: that of the options
-} vtCameraKey;
+/// A model of what is drawn, and where in the scene it is.
+typedef struct vtMovingModel {
+    vtModel* model;
+    vtModelPlace place;
+    int animation; ///< that is played; -1: it stays at rest
+} vtMovingModel;
 
 typedef struct vtMotion {
-    vtView view;       ///< without motion; the turntable turns it
-    double fps;        ///< frames a second
-    int turntable;     ///< frames of a turn; 0: it does not turn
-    vtCameraKey* keys; ///< times rising; NULL: there are none
-    size_t keyCount;
+    vtMovingModel models[1 + VT_MAX_OBJECT_OPTIONS]; ///< those that have animations
+    int count;
+    double duration; ///< seconds, of the longest that is played; 0: nothing moves
+    vtView view;     ///< where no camera is given: of the whole scene at rest and at all times
+    float lowest;    ///< y of its lowest point then
 } vtMotion;
 
-/// By the options; reads the file of keys. Fails with a sentence that names option, value and remedy.
-vtResult vtMakeMotion(const vtOptions* options, vtMotion* motion, vtError* error);
+/// Takes a model over, which may be NULL.
+void vtMotion_Add(vtMotion* motion, vtModel* model, const vtModelPlace* place);
+
+/// Chooses what is played by the options: of each model the animation of that name or number, else its first.
+/// Fails with a sentence where animations are asked for and there is none such.
+vtResult vtMotion_Choose(vtMotion* motion, const vtOptions* options, vtError* error);
+
+/// Moves the scene; NAN: to rest. Before and after an animation it is as at its ends.
+vtResult vtMotion_SetTime(vtMotion* motion, double seconds, vtScene* scene, vtError* error);
+
+/// Looks at the scene, which is at rest and stays so, at 16 times of what is played: view and lowest point.
+vtResult vtMotion_Survey(vtMotion* motion, float fovY, float aspect, vtScene* scene, vtError* error);
+
+/// Safe on a zeroed one.
 void vtDestroyMotion(vtMotion* motion);
-
-/// Frames from 0 on until it has come to its end; 0: it has none.
-int vtMotion_FrameCount(const vtMotion* motion);
-
-/// Puts the eye where it is at a frame; between two frames, too.
-void vtMotion_SetView(const vtMotion* motion, double number, vtFrame* frame);

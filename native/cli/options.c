@@ -8,7 +8,9 @@
 #include "base/error.h"
 #include "cli/hash.h"
 #include "cli/object_help.h"
+#include "cli/output_name.h"
 #include "cli/setting_options.h"
+#include "cli/video.h"
 #include "lab/metrics/timing.h"
 
 typedef enum Kind {
@@ -61,6 +63,10 @@ static const Option table[] = {
      "glass of models: as the file says, or all of it thin walls or solid bodies (auto)", SCENE},
     {"variant", 0, kindText, AT(variant), 0, 0, "NAME", "of the files' variants of their materials (none)",
      SCENE},
+    {"time", 0, kindNumber, AT(time), 0, 1e6, "SECONDS",
+     "of the files' animations: where they have everything then (at rest; view plays)", SCENE},
+    {"animation", 0, kindText, AT(animation), 0, 0, "NAME|N",
+     "which of the files' animations; none: at rest (each file's first)", SCENE},
     {"output", 'o', kindText, AT(output), 0, 0, "FILE",
      "the picture: PNG, or by its name's end linear light, .exr or .hdr; - is standard output, PNG. Of "
      "several "
@@ -280,6 +286,7 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
         .referenceThreshold = 0.05f,
         .fps = 24.0f,
         .stamp = vtHashText(VT_NO_HASH, VT_VERSION),
+        .time = -1.0f,
         .relief = -1.0f,
         .slab = -1.0f,
         .smooth = -1.0f,
@@ -343,6 +350,17 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     if (options->fresnelGiven && options->noFresnel) {
         return vtFail(error, vt_errorArgument, "--fresnel and --no-fresnel contradict each other; give one");
     }
+    const bool isStill = options->animation != NULL && strcmp(options->animation, "none") == 0;
+    if (isStill && options->time >= 0.0f) {
+        return vtFail(error, vt_errorArgument, "--time and --animation none contradict each other; give one");
+    }
+    const char* output = options->output != NULL ? options->output : "";
+    options->asksForFrames = options->frameRange != NULL || options->shutter > 0.0f || vtIsVideo(output) ||
+                             vtPatternHas(output, "{frame}");
+    // Frames are those of the files' animations, unless the eye's way gives them.
+    const bool eyeMoves = options->turntable > 0 || options->cameraKeys != NULL;
+    options->plays = !isStill && (command == vt_commandView || options->time >= 0.0f ||
+                                  options->animation != NULL || (options->asksForFrames && !eyeMoves));
     const vtGlassInfo* glass = vtFindGlass(options->glass);
     if (options->glass != NULL && glass == NULL) {
         return vtFail(error, vt_errorArgument, "--glass is '%.100s', which is unknown; see 'vitrine list'",

@@ -35,7 +35,11 @@ typedef struct vtOptions {
     const char* technique;
     const char* root; ///< a folder around the models'
     const char *walls, *variant;
-    const char* glass; ///< a kind of glass
+    float time;            ///< seconds; -1: not given
+    const char* animation; ///< its name or number; NULL: each file's first
+    bool asksForFrames;    ///< of something that moves, whatever that is
+    bool plays;            ///< files are opened for their animations
+    const char* glass;     ///< a kind of glass
     const char* backend;
     const char* directions;
     const char* layerSheet;

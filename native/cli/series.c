@@ -20,7 +20,7 @@
 typedef struct Run {
     const vtOptions* options;
     const vtPlan* plan;
-    vtMotion motion; // the plan's, of this model's view
+    vtCameraPath eye; // the plan's, of this model's view
     vtSession session;
     bool isOpen; // the session
     vtDrawing drawing;
@@ -29,6 +29,7 @@ typedef struct Run {
     vtVideo video;
     sigset_t signals;
     double start, told; // milliseconds
+    int expected;       // pictures of this part, of the models seen so far and those whose number is known
     int done, kept, failed, stoppedBy;
 } Run;
 
@@ -59,7 +60,7 @@ static bool isStopped(Run* run)
 /// On a terminal a bar; elsewhere a line, at most one in five seconds.
 static void tellProgress(Run* run)
 {
-    const int count = run->plan->ownCount;
+    const int count = run->expected;
     const double now = vtNow();
     if (isatty(STDERR_FILENO)) {
         vtShowProgress("drawing", (float)run->done / (float)count, run->start);
@@ -108,11 +109,10 @@ static vtResult drawOne(Run* run, const char* model, int number, vtFrame* frame,
         return vt_ok;
     }
     run->drawing.comment = comment;
-    run->drawing.number = number < 0 ? 0.0 : (double)number;
-    vtMotion_SetView(&run->motion, run->drawing.number, frame);
+    run->drawing.number = number < 0 ? 0 : number;
     result = vtDrawPicture(&run->drawing, &run->session, frame, &run->picture, error);
     if (result == vt_ok && isVideo && run->video.process == 0) {
-        result = vtBeginVideo(run->options->output, frame->width, frame->height, run->plan->motion.fps,
+        result = vtBeginVideo(run->options->output, frame->width, frame->height, run->plan->eye.fps,
                               &run->video, error);
     }
     if (result == vt_ok) {
@@ -123,13 +123,20 @@ static vtResult drawOne(Run* run, const char* model, int number, vtFrame* frame,
     return result;
 }
 
+/// Does anything move, the eye or the scene?
+static bool moves(const Run* run)
+{
+    return vtCameraPath_FrameCount(&run->eye) > 0 || run->session.input.motion.duration > 0.0;
+}
+
 /// The frames of one model that are this part's.
 static vtResult drawModel(Run* run, size_t index, vtError* error)
 {
     const vtPlan* plan = run->plan;
     vtOptions options = *run->options;
     options.model = plan->models[index];
-    if (!vtPlan_HasOwn(plan, index)) {
+    const bool isKnown = plan->frameCount > 0;
+    if (isKnown && vtPlan_CountOwn(plan, index, plan->frameCount) == 0) {
         return vt_ok;
     }
     vtError reason;
@@ -147,8 +154,18 @@ static vtResult drawModel(Run* run, size_t index, vtError* error)
         return vtFail(error, result, "%s", reason.message);
     }
     frame.linear = vtPictureFormat_IsLinear(run->drawing.format);
-    run->motion.view = frame.view;
-    for (int i = 0; i < plan->frameCount && result == vt_ok && !isStopped(run); ++i) {
+    run->eye.view = frame.view;
+    const int frameCount = vtPlan_CountFrames(plan, run->session.input.motion.duration);
+    const char* name = options.model != NULL ? options.model : "the scene";
+    if (plan->hasFrames && !moves(run)) {
+        return vtFail(error, vt_errorArgument, VT_NOTHING_MOVES, name);
+    }
+    if (frameCount == 0) {
+        return vtFail(error, vt_errorArgument, "'%.200s' has no frame %d: its animation ends before", name,
+                      plan->firstFrame);
+    }
+    run->expected += isKnown ? 0 : vtPlan_CountOwn(plan, index, frameCount);
+    for (int i = 0; i < frameCount && result == vt_ok && !isStopped(run); ++i) {
         if (!vtPlan_IsOwn(plan, index, i)) {
             continue;
         }
@@ -172,7 +189,7 @@ static vtResult finish(Run* run, vtResult result, vtError* error)
     const double seconds = 1e-3 * (vtNow() - run->start);
     if (run->done > 0 && !run->plan->isVideo) {
         fprintf(stderr, "vitrine: %d of %d pictures are there: %d drawn, %d kept, in %.1f s\n", run->done,
-                run->plan->ownCount, run->done - run->kept, run->kept, seconds);
+                run->expected, run->done - run->kept, run->kept, seconds);
     }
     if (result == vt_ok && run->stoppedBy != 0) {
         return vtFail(error, vt_errorFile, "stopped; %s",
@@ -200,12 +217,15 @@ vtResult vtRunSeries(const vtOptions* options, vtError* error)
     }
     Run run = {.options = options,
                .plan = &plan,
-               .motion = plan.motion,
+               .eye = plan.eye,
                .drawing = {.options = options, .format = format},
                .video = {.pipe = -1, .file.descriptor = -1},
                .start = vtNow(),
                .told = vtNow()};
-    run.drawing.motion = &run.motion;
+    run.drawing.eye = &run.eye;
+    for (size_t i = 0; i < plan.modelCount; ++i) {
+        run.expected += vtPlan_CountOwn(&plan, i, plan.frameCount);
+    }
     holdSignals(&run);
     for (size_t i = 0; i < plan.modelCount && result == vt_ok && !isStopped(&run); ++i) {
         result = drawModel(&run, i, error);

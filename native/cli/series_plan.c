@@ -1,6 +1,6 @@
 #include "cli/series_plan.h"
 
-#include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +18,8 @@ enum { mostFrames = 1000000 };
 bool vtIsSeries(const vtOptions* options)
 {
     return options->modelCount > 1 || options->list != NULL || options->turntable > 0 ||
-           options->frameRange != NULL || options->cameraKeys != NULL ||
-           (options->output != NULL && vtIsVideo(options->output));
+           options->cameraKeys != NULL || options->asksForFrames ||
+           (options->output != NULL && vtPatternHas(options->output, "{name}"));
 }
 
 // ----------------------------------------------------------------------------------------------- options
@@ -110,13 +110,14 @@ static vtResult checkNames(const vtOptions* options, const vtPlan* plan, vtError
         return vt_ok;
     }
     if (!vtPatternHas(options->output, "{name}") || plan->isVideo) {
-        return vtFail(error, vt_errorArgument,
-                      plan->isVideo
-                          ? "-o '%.200s' is one film, but %zu models are named; name one, or add the others to "
-                            "its scene with --object"
-                          : "-o '%.200s' names one file, but %zu models are named; let it have {name}, as "
-                            "'out/{name}.png', or add the others to one scene with --object",
-                      options->output, plan->modelCount);
+        return vtFail(
+            error, vt_errorArgument,
+            plan->isVideo
+                ? "'%.200s' is a second model, but -o '%.200s' is one film; add it to its scene with "
+                  "--object"
+                : "'%.200s' is a second model, but -o '%.200s' names one file; let it have {name}, as "
+                  "'out/{name}.png', or add the model to the scene with --object",
+            plan->models[1], options->output);
     }
     const char** sorted = malloc(plan->modelCount * sizeof *sorted);
     if (sorted == NULL) {
@@ -170,8 +171,8 @@ static bool readRange(const char* text, int end, int* first, int* last)
     *last = end - 1;
     if (text[read] != '\0') {
         int more = 0;
-        if (sscanf(text + read, "%7d%n", last, &more) != 1 || text[read + more] != '\0' ||
-            text[read] < '0' || text[read] > '9') {
+        if (sscanf(text + read, "%7d%n", last, &more) != 1 || text[read + more] != '\0' || text[read] < '0' ||
+            text[read] > '9') {
             return false;
         }
     }
@@ -180,38 +181,51 @@ static bool readRange(const char* text, int end, int* first, int* last)
 
 static vtResult findFrames(const vtOptions* options, vtPlan* plan, vtError* error)
 {
-    const int count = vtMotion_FrameCount(&plan->motion);
-    plan->frameCount = 1;
-    if (count == 0 && (options->frameRange != NULL || plan->isVideo || options->shutter > 0.0f)) {
-        return vtFail(error, vt_errorArgument, "%s: nothing moves; add --turntable N or --camera-keys FILE",
-                      options->frameRange != NULL ? "--frames"
-                      : plan->isVideo             ? options->output
-                                                  : "--shutter");
-    }
-    if (count == 0) {
-        return vt_ok;
+    const int count = vtCameraPath_FrameCount(&plan->eye);
+    const bool byAnimation = count == 0 && options->plays && options->asksForFrames;
+    plan->hasFrames = count > 0 || byAnimation;
+    plan->frameCount = byAnimation ? 0 : 1;
+    if (!plan->hasFrames) {
+        return options->asksForFrames ? vtFail(error, vt_errorArgument, VT_NOTHING_MOVES, "the scene")
+                                      : vt_ok;
     }
     int last = count - 1;
-    plan->hasFrames = true;
-    if (options->frameRange != NULL && !readRange(options->frameRange, count, &plan->firstFrame, &last)) {
-        return vtFail(error, vt_errorArgument,
-                      "--frames is '%.100s'; it must be A:B, the first and the last, counted from 0, or A: to "
-                      "the last, which is %d",
-                      options->frameRange, count - 1);
+    if (options->frameRange != NULL &&
+        !readRange(options->frameRange, count > 0 ? count : mostFrames, &plan->firstFrame, &last)) {
+        char most[48] = "";
+        if (count > 0) {
+            snprintf(most, sizeof most, ", which is %d", count - 1);
+        }
+        return vtFail(
+            error, vt_errorArgument,
+            "--frames is '%.100s'; it must be A:B, the first and the last, counted from 0, or A: to "
+            "the last%s",
+            options->frameRange, most);
     }
-    plan->frameCount = last - plan->firstFrame + 1;
+    if (count > 0 || (options->frameRange != NULL && last < mostFrames - 1)) {
+        plan->frameCount = last - plan->firstFrame + 1;
+    }
     return vt_ok;
+}
+
+int vtPlan_CountFrames(const vtPlan* plan, double seconds)
+{
+    if (plan->frameCount > 0) {
+        return plan->frameCount;
+    }
+    const double last = fmin(floor(seconds * plan->eye.fps + 1e-6), mostFrames - 1);
+    return (int)fmax(last - plan->firstFrame + 1.0, 0.0);
 }
 
 // -------------------------------------------------------------------------------------------------- plan
 
 /// The keys count for what is drawn.
-static uint64_t hashKeys(const vtMotion* motion)
+static uint64_t hashKeys(const vtCameraPath* eye)
 {
     uint64_t hash = VT_NO_HASH;
-    for (size_t i = 0; i < motion->keyCount; ++i) {
-        hash = vtHash(hash, &motion->keys[i].time, sizeof(double));
-        hash = vtHash(hash, &motion->keys[i].view, sizeof(vtView));
+    for (size_t i = 0; i < eye->keyCount; ++i) {
+        hash = vtHash(hash, &eye->keys[i].time, sizeof(double));
+        hash = vtHash(hash, &eye->keys[i].view, sizeof(vtView));
     }
     return hash;
 }
@@ -227,7 +241,7 @@ vtResult vtMakePlan(const vtOptions* options, vtPlan* plan, vtError* error)
         result = checkNames(options, plan, error);
     }
     if (result == vt_ok) {
-        result = vtMakeMotion(options, &plan->motion, error);
+        result = vtMakeCameraPath(options, &plan->eye, error);
     }
     if (result == vt_ok) {
         result = findFrames(options, plan, error);
@@ -236,17 +250,13 @@ vtResult vtMakePlan(const vtOptions* options, vtPlan* plan, vtError* error)
         result = vtFindPart(options, &plan->part, error);
     }
     if (result == vt_ok && plan->isVideo && plan->part.count > 1) {
-        result = vtFail(error, vt_errorArgument,
-                        "-o '%.200s' is one film, which cannot be drawn in parts; let the parts write pictures, "
-                        "-o 'NAME-{frame}.png', and make the film of them",
-                        options->output);
+        result =
+            vtFail(error, vt_errorArgument,
+                   "-o '%.200s' is one film, which cannot be drawn in parts; let the parts write pictures, "
+                   "-o 'NAME-{frame}.png', and make the film of them",
+                   options->output);
     }
-    plan->contents = hashKeys(&plan->motion);
-    for (size_t i = 0; i < plan->modelCount && result == vt_ok; ++i) {
-        for (int k = 0; k < plan->frameCount; ++k) {
-            plan->ownCount += vtPlan_IsOwn(plan, i, k);
-        }
-    }
+    plan->contents = hashKeys(&plan->eye);
     return result;
 }
 
@@ -254,21 +264,20 @@ void vtDestroyPlan(vtPlan* plan)
 {
     free(plan->models);
     free(plan->list);
-    vtDestroyMotion(&plan->motion);
+    vtDestroyCameraPath(&plan->eye);
     *plan = (vtPlan){0};
 }
 
 bool vtPlan_IsOwn(const vtPlan* plan, size_t model, int frame)
 {
-    const size_t index = model * (size_t)plan->frameCount + (size_t)frame;
-    return index % (size_t)plan->part.count == (size_t)plan->part.number - 1;
+    return (model + (size_t)frame) % (size_t)plan->part.count == (size_t)plan->part.number - 1;
 }
 
-bool vtPlan_HasOwn(const vtPlan* plan, size_t model)
+int vtPlan_CountOwn(const vtPlan* plan, size_t model, int frameCount)
 {
-    bool has = false;
-    for (int i = 0; i < plan->frameCount && !has; ++i) {
-        has = vtPlan_IsOwn(plan, model, i);
+    int count = 0;
+    for (int i = 0; i < frameCount; ++i) {
+        count += vtPlan_IsOwn(plan, model, i);
     }
-    return has;
+    return count;
 }

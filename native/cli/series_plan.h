@@ -1,19 +1,22 @@
 // Which pictures a series has, and which of them are this process's part.
 #pragma once
 
-#include "cli/motion.h"
+#include "cli/camera_path.h"
 #include "cli/part.h"
+
+/// What is wrong with frames of what stands still: of a model's name.
+#define VT_NOTHING_MOVES                                                                                     \
+    "frames are asked for, but nothing moves in '%.200s'; add --turntable N or --camera-keys FILE"
 
 typedef struct vtPlan {
     const char** models; ///< NULL: what --object gives
     size_t modelCount;
     char* list; ///< the text of --list, which `models` point into
     bool hasFrames;
-    int firstFrame, frameCount; ///< of each model; 1 where it has no frames
+    int firstFrame, frameCount; ///< of each model; 1 without frames, 0: as long as its animation
     bool isVideo;
     vtPart part;
-    int ownCount; ///< pictures of this part
-    vtMotion motion;
+    vtCameraPath eye;
     uint64_t contents; ///< hash of the files that only the plan reads
 } vtPlan;
 
@@ -22,7 +25,9 @@ typedef struct vtPlan {
 vtResult vtMakePlan(const vtOptions* options, vtPlan* plan, vtError* error);
 void vtDestroyPlan(vtPlan* plan);
 
+/// Frames of a model whose animation takes so many seconds.
+int vtPlan_CountFrames(const vtPlan* plan, double seconds);
 /// Is the picture of that model and frame this part's? Parts take turns, so that each has as much to do.
 bool vtPlan_IsOwn(const vtPlan* plan, size_t model, int frame);
-/// Has the part a picture of that model?
-bool vtPlan_HasOwn(const vtPlan* plan, size_t model);
+/// How many pictures the part has of a model of so many frames.
+int vtPlan_CountOwn(const vtPlan* plan, size_t model, int frameCount);

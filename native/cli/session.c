@@ -21,14 +21,35 @@ static vtResult findBackend(const char* name, vtBackend* backend, vtError* error
                   name);
 }
 
-static vtResult setSurroundings(const vtOptions* options, const vtSession* session, vtError* error)
+/// Builds the hierarchies of a scene that moves, so that they need not be built anew each time.
+static vtResult prepareMotion(vtInput* input, vtError* error)
 {
-    vtResult result = vtRenderer_SetEnvironment(session->renderer, &session->input.environment, error);
-    if (result == vt_ok && session->input.background.pixels != NULL) {
-        result = vtRenderer_SetBackground(session->renderer, &session->input.background, error);
+    vtPreparation* preparation = input->motion.count > 0 ? vtBeginPreparation(&input->scene) : NULL;
+    while (preparation != NULL && !vtPreparation_Step(preparation, UINT32_MAX)) {
+    }
+    return preparation != NULL ? vtEndPreparation(preparation, error) : vt_ok;
+}
+
+static vtResult setScene(vtSession* session, const vtOptions* options, vtError* error)
+{
+    vtResult result = prepareMotion(&session->input, error);
+    if (result == vt_ok) {
+        result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
     }
     if (result == vt_ok && options->ground.isThere) {
-        result = vtRenderer_SetGround(session->renderer, &options->ground.ground, error);
+        result = vtRenderer_SetGround(session->renderer, &session->input.ground, error);
+    }
+    return result;
+}
+
+vtResult vtSession_Fill(vtSession* session, const vtOptions* options, vtError* error)
+{
+    vtResult result = setScene(session, options, error);
+    if (result == vt_ok) {
+        result = vtRenderer_SetEnvironment(session->renderer, &session->input.environment, error);
+    }
+    if (result == vt_ok && session->input.background.pixels != NULL) {
+        result = vtRenderer_SetBackground(session->renderer, &session->input.background, error);
     }
     return result;
 }
@@ -40,10 +61,7 @@ static vtResult openRenderer(const vtOptions* options, vtBackend backend, vtSess
         result = vtCreateRenderer(&(vtRendererDef){.getProcAddress = session->context.getProcAddress},
                                   &session->renderer, error);
     }
-    if (result == vt_ok) {
-        result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
-    }
-    return result == vt_ok ? setSurroundings(options, session, error) : result;
+    return result == vt_ok ? vtSession_Fill(session, options, error) : result;
 }
 
 vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* error)
@@ -65,11 +83,16 @@ vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* er
 
 vtResult vtSession_SetModel(vtSession* session, const vtOptions* options, vtError* error)
 {
-    vtResult result = vtSetInputModel(options, &session->input, error);
-    if (result == vt_ok && session->renderer != NULL) {
-        result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
-    }
-    return result;
+    const vtResult result = vtSetInputModel(options, &session->input, error);
+    return result == vt_ok && session->renderer != NULL ? setScene(session, options, error) : result;
+}
+
+vtResult vtSession_SetTime(vtSession* session, const vtOptions* options, double seconds, vtError* error)
+{
+    const vtResult result = vtInput_SetTime(&session->input, options, seconds, error);
+    return result == vt_ok && session->renderer != NULL
+               ? vtRenderer_UpdateScene(session->renderer, &session->input.scene, error)
+               : result;
 }
 
 void vtCloseSession(vtSession* session)

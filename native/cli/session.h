@@ -17,5 +17,11 @@ vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* er
 /// Puts another model into an open session, before the same environment; on failure the one before stays.
 vtResult vtSession_SetModel(vtSession* session, const vtOptions* options, vtError* error);
 
+/// Moves the scene to another time of its animations, and what is drawn with it.
+vtResult vtSession_SetTime(vtSession* session, const vtOptions* options, double seconds, vtError* error);
+
+/// Gives a renderer what the session's input has and the options ask for.
+vtResult vtSession_Fill(vtSession* session, const vtOptions* options, vtError* error);
+
 /// Safe on a zeroed session.
 void vtCloseSession(vtSession* session);

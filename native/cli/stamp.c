@@ -28,8 +28,8 @@ bool vtIsDrawn(const char* path, const char* comment, int width, int height)
     int pictureWidth = 0, pictureHeight = 0;
     // The comment stands in the header; all of the picture must decode.
     bool isDrawn = memmem(bytes, size < 4096 ? size : 4096, comment, strlen(comment)) != NULL;
-    isDrawn = isDrawn && vtDecodeImageLinear(bytes, size, path, &pixels, &pictureWidth, &pictureHeight,
-                                             &error) == vt_ok;
+    isDrawn = isDrawn &&
+              vtDecodeImageLinear(bytes, size, path, &pixels, &pictureWidth, &pictureHeight, &error) == vt_ok;
     vtFree(pixels);
     vtFree(bytes);
     return isDrawn && pictureWidth == width && pictureHeight == height;

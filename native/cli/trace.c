@@ -33,7 +33,7 @@ vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* 
         .environment = &input->environment,
         .samples = options->samples,
         .fresnel = frame->fresnel,
-        .ground = options->ground.isThere ? &options->ground.ground : NULL,
+        .ground = options->ground.isThere ? &input->ground : NULL,
         .progress = showsProgress ? showProgress : NULL,
         .userData = &start,
     };

@@ -72,7 +72,8 @@ vtResult vtBeginVideo(const char* path, int width, int height, double fps, vtVid
     close(ends[0]);
     video->pipe = ends[1];
     if (video->process < 0) {
-        result = vtFail(error, vt_errorFile, "film '%s': ffmpeg cannot be started: %s", path, strerror(errno));
+        result =
+            vtFail(error, vt_errorFile, "film '%s': ffmpeg cannot be started: %s", path, strerror(errno));
         vtDropVideo(video);
     }
     return result;

@@ -23,6 +23,15 @@ bool vtWindow_Poll(vtWindow* window, vtView* view)
     (void)window, (void)view;
     return false;
 }
+vtWindowKeys vtWindow_TakeKeys(vtWindow* window)
+{
+    (void)window;
+    return (vtWindowKeys){0};
+}
+void vtWindow_SetTitle(vtWindow* window, const char* title)
+{
+    (void)window, (void)title;
+}
 void vtWindow_GetSize(const vtWindow* window, int* width, int* height)
 {
     (void)window;
@@ -51,6 +60,7 @@ struct vtWindow {
     double yaw, turn; // gathered since the last poll, radians
     double zoom;      // likewise, wheel notches
     bool dragging, resized;
+    vtWindowKeys keys;
 };
 
 // One turn of the object is two and a half windows' widths of dragging.
@@ -83,6 +93,18 @@ static void onScroll(GLFWwindow* handle, double x, double y)
     (void)x;
     vtWindow* window = glfwGetWindowUserPointer(handle);
     window->zoom += y;
+}
+
+static void onKey(GLFWwindow* handle, int key, int code, int action, int modifiers)
+{
+    (void)code, (void)modifiers;
+    vtWindowKeys* keys = &((vtWindow*)glfwGetWindowUserPointer(handle))->keys;
+    if (action == GLFW_RELEASE) {
+        return;
+    }
+    keys->pause ^= key == GLFW_KEY_SPACE && action == GLFW_PRESS;
+    keys->start |= key == GLFW_KEY_HOME;
+    keys->steps += (key == GLFW_KEY_RIGHT) - (key == GLFW_KEY_LEFT);
 }
 
 static void onResize(GLFWwindow* handle, int width, int height)
@@ -128,6 +150,7 @@ vtResult vtCreateWindow(const char* title, int width, int height, vtWindow** out
     glfwSetMouseButtonCallback(window->handle, onButton);
     glfwSetCursorPosCallback(window->handle, onMove);
     glfwSetScrollCallback(window->handle, onScroll);
+    glfwSetKeyCallback(window->handle, onKey);
     glfwSetFramebufferSizeCallback(window->handle, onResize);
     window->resized = true;
     *out = window;
@@ -160,6 +183,18 @@ bool vtWindow_Poll(vtWindow* window, vtView* view)
     window->yaw = window->turn = window->zoom = 0.0;
     window->resized = false;
     return changed;
+}
+
+vtWindowKeys vtWindow_TakeKeys(vtWindow* window)
+{
+    const vtWindowKeys keys = window->keys;
+    window->keys = (vtWindowKeys){0};
+    return keys;
+}
+
+void vtWindow_SetTitle(vtWindow* window, const char* title)
+{
+    glfwSetWindowTitle(window->handle, title);
 }
 
 void vtWindow_GetSize(const vtWindow* window, int* width, int* height)

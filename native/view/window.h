@@ -18,6 +18,16 @@ vtGetProcAddressFcn* vtWindow_GetProcAddress(void);
 /// changed or the window was resized since the last call.
 bool vtWindow_Poll(vtWindow* window, vtView* view);
 
+/// What the keys of an animation were pressed for since the last call.
+typedef struct vtWindowKeys {
+    int steps;  ///< right arrow 1, left arrow -1
+    bool pause; ///< space, an odd number of times
+    bool start; ///< home
+} vtWindowKeys;
+vtWindowKeys vtWindow_TakeKeys(vtWindow* window);
+
+void vtWindow_SetTitle(vtWindow* window, const char* title);
+
 /// Size of the framebuffer, pixels.
 void vtWindow_GetSize(const vtWindow* window, int* width, int* height);
 bool vtWindow_ShouldClose(const vtWindow* window);

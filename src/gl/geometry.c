@@ -223,6 +223,7 @@ static void copyPlan(vtGeometryBuffer* item, const vtHierarchy* hierarchy)
     item->origin = hierarchy->origin;
     item->gridLow = hierarchy->gridLow;
     item->gridScale = hierarchy->gridScale;
+    item->builds = hierarchy->builds;
 }
 
 /// What there is to know of a mesh without its data.
@@ -233,7 +234,8 @@ static vtMesh shapeOf(const vtMesh* mesh)
                     .boundsMin = mesh->boundsMin,
                     .boundsMax = mesh->boundsMax,
                     .volume = mesh->volume,
-                    .openEdgeCount = mesh->openEdgeCount};
+                    .openEdgeCount = mesh->openEdgeCount,
+                    .updates = mesh->updates};
 }
 
 static bool usesAttributes(const vtMesh* mesh, vtGeometryUse use)
@@ -418,7 +420,8 @@ vtResult vtGeometryStore_Update(vtGeometryStore* store, const vtGL* gl, uint32_t
     const bool hadHeights = item->heights.cell > 0.0f;
     const bool fits = hierarchy != NULL && hierarchy->recordCount == item->records.count &&
                       store->shapes[index].indexCount == mesh->indexCount &&
-                      hadHeights == (mesh->heights != NULL) &&
+                      hadHeights == (mesh->heights != NULL) && mesh->tangents == NULL &&
+                      (item->attributes.count == 0 || item->builds == hierarchy->builds) &&
                       vtMeshBuffer_Update(&item->vertices, gl, mesh, hierarchy->origin);
     if (fits) {
         copyPlan(item, hierarchy);

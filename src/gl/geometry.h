@@ -28,6 +28,7 @@ typedef struct vtGeometryBuffer {
     /// half is those of more attributes
     vtRecordRange attributes;
     bool colored;              ///< it has colours
+    uint32_t builds;           ///< of the hierarchy, whose corners the attributes are in the order of
     vtVec3 origin;             ///< of the own coordinates, in the mesh's
     vtVec3 gridLow, gridScale; ///< of the hierarchy's boxes (mesh/hierarchy.h)
     bool overlaps;             ///< glass: parts run into each other

@@ -26,6 +26,11 @@ bool vtMeshBuffer_Update(const vtMeshBuffer* buffer, const vtGL* gl, const vtMes
         (buffer->distances == 0) != (mesh->innerDistances == NULL)) {
         return false;
     }
+    if (mesh->innerDistances != NULL) {
+        gl->BindBuffer(GL_ARRAY_BUFFER, buffer->distances);
+        gl->BufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)(sizeof(float) * mesh->vertexCount),
+                          mesh->innerDistances);
+    }
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
     return uploadVertices(gl, mesh, origin);
 }

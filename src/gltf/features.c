@@ -49,9 +49,11 @@ static const vtGltfFeature features[] = {
          "turned"),
     CORE("points, lines", vt_gltfIgnored, "they bound no volume"),
     CORE("sparse accessors", vt_gltfDrawn, "also without a buffer view"),
-    CORE("morph targets", vt_gltfDrawn, "positions and normals, by the weights of the file"),
-    CORE("skins", vt_gltfDrawn, "in the pose that the nodes have, any number of joints a vertex"),
-    CORE("animations", vt_gltfIgnored, "everything stands as its nodes say"),
+    CORE("morph targets", vt_gltfDrawn,
+         "positions and normals, by the weights of the file or its animations"),
+    CORE("skins", vt_gltfDrawn, "any number of joints a vertex"),
+    CORE("animations", vt_gltfDrawn,
+         "all interpolations; of nodes, weights, cameras, lights; what is scaled to nothing becomes tiny"),
     CORE("perspective cameras", vt_gltfApproximated,
          "level, without roll; planes and aspect are not looked at"),
     CORE("orthographic cameras", vt_gltfApproximated,
@@ -79,7 +81,10 @@ static const vtGltfFeature features[] = {
         "drawn in a browser; else the PNG or JPEG beside it is taken, and where there is none, the file "
         "is refused"),
     EXTENSION("EXT_texture_webp", vt_gltfDrawn, ""),
-    EXTENSION("KHR_animation_pointer", vt_gltfIgnored, "as animations"),
+    EXTENSION(
+        "KHR_animation_pointer", vt_gltfApproximated,
+        "of nodes; of materials base colour, metallic, roughness, emissive, alpha cutoff, transmission, "
+        "index, attenuation, dispersion; a note counts other channels"),
     DECODED("KHR_draco_mesh_compression", LACKS_DRACO, "by libdraco, npm's draco3dgltf in a browser"),
     EXTENSION("KHR_lights_punctual", vt_gltfApproximated,
               "opaque things are lit, glass has highlights; nothing casts shadows"),

@@ -9,7 +9,6 @@
 #include "gltf/gltf.h"
 
 #include <cstring>
-#include <new>
 
 namespace vtGltf
 {
@@ -78,35 +77,12 @@ vtResult load(Loader& loader)
     Bytes text, bin;
     std::vector<uint32_t> materialOf;
     return splitFile(loader, &text, &bin) && parseDocument(loader, text, bin) &&
-                   findVariant(loader, &loader.variant) && collectNodes(loader) &&
-                   makeMaterials(loader, &materialOf) && makeMeshes(loader, materialOf) &&
-                   guessSolid(loader) && makeObjects(loader) && makeCameras(loader) && makeLights(loader) &&
-                   makeNotes(loader)
+                   findVariant(loader, &loader.variant) && readAnimations(loader) && placeNodes(loader) &&
+                   collectNodes(loader) && makeMaterials(loader, &materialOf) &&
+                   aimFactors(loader, materialOf) && makeMeshes(loader, materialOf) && guessSolid(loader) &&
+                   makeObjects(loader) && makeCameras(loader) && makeLights(loader) && makeNotes(loader)
                ? vtSucceed(loader.error)
                : loader.result;
-}
-
-static vtResult loadScene(const vtModelDef* def, vtScene* scene, vtError* error)
-{
-    Loader loader = {def, scene, error};
-    return load(loader);
-}
-
-/// Nothing that is thrown leaves it.
-static vtResult loadSafely(const vtModelDef* def, vtScene* scene, vtError* error)
-{
-#ifdef __cpp_exceptions
-    const char* name = def->name != nullptr ? def->name : "";
-    try {
-        return loadScene(def, scene, error);
-    } catch (const std::bad_alloc&) {
-        return vtFail(error, vt_errorMemory, "model '%.200s': out of memory; simplify it", name);
-    } catch (...) {
-        return vtFail(error, vt_errorFormat, "model '%.200s': it cannot be read" GLTF_DAMAGED, name);
-    }
-#else
-    return loadScene(def, scene, error);
-#endif
 }
 
 } // namespace vtGltf
@@ -120,9 +96,5 @@ extern "C" vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* 
     if (def->bytes == nullptr && def->size > 0) {
         return vtFailMissing(error, "vtLoadScene", "def->bytes");
     }
-    const vtResult result = vtGltf::loadSafely(def, scene, error);
-    if (result != vt_ok) {
-        vtDestroyScene(scene);
-    }
-    return result;
+    return vtGltf::loadSafely(def, scene, false, error, [](vtGltf::Loader&) { return true; });
 }

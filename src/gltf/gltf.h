@@ -1,10 +1,9 @@
-// The steps of vtLoadScene, one file each. Internal: callers use vtLoadScene.
+// The steps of vtOpenModel, one file each. Internal: callers use vtOpenModel and vtLoadScene.
 #pragma once
 
-#include "vitrine.h"
+#include "gltf/rig.h"
 
 extern "C" {
-#include "base/error.h"
 #include "base/memory.h"
 #include "gltf/features.h"
 }
@@ -22,8 +21,6 @@ extern "C" {
 #include <tiny_gltf.h>
 
 #include <memory>
-#include <string>
-#include <vector>
 
 /// How sentences end about what only whoever made the file can mend.
 #define GLTF_DAMAGED "; the file is damaged, export it again"
@@ -44,11 +41,6 @@ struct Stream {
     bool normalized = false; // whole numbers stand for 0 to 1, or -1 to 1
 };
 
-/// Column-major 4 x 4, as glTF has it.
-struct Matrix {
-    double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-};
-
 /// Gives back what vtAllocate gave.
 struct Free {
     void operator()(void* memory) const
@@ -63,7 +55,7 @@ using Streams = std::vector<std::pair<std::string, Stream>>;
 
 /// What a morph target adds to each vertex, times its weight.
 struct Target {
-    double weight;
+    size_t index; // of its weight
     Stream positions, normals;
 };
 
@@ -76,7 +68,7 @@ struct Influence {
 struct Part {
     // A stream without data: the primitive has none.
     Stream positions, normals, texcoords, texcoords1, tangents, colors, indices;
-    std::vector<Target> targets = {}; // of weights other than 0
+    std::vector<Target> targets = {}; // of weights that are animated, or other than 0
     std::vector<Influence> influences = {};
     int mode = TINYGLTF_MODE_TRIANGLES; // or a strip or a fan
     size_t triangleCount = 0;
@@ -88,7 +80,7 @@ struct Source {
     int mesh;
     std::vector<double> weights = {};
     int skin = -1;
-    std::vector<Matrix> joints = {}; // of the skin: from the mesh to the world
+    int node = -1; // whose animated weights they are, or none
     std::vector<Part> parts = {};
     std::vector<uint32_t> meshes = {}, materials = {}; // what became of it in the scene, as many of each
     std::vector<uint8_t> bounds = {};                  // 1: those that bound one body together
@@ -107,6 +99,23 @@ struct Skin {
     int inverseBindMatrices = -1;
 };
 
+/// A channel of an animation as the file has it; -1: it does not say.
+struct GivenChannel {
+    int sampler = -1, node = -1;
+    std::string path = {}, pointer = {};
+};
+
+struct GivenSampler {
+    int input = -1, output = -1;
+    std::string interpolation = {};
+};
+
+struct GivenAnimation {
+    std::string name = {};
+    std::vector<GivenSampler> samplers = {};
+    std::vector<GivenChannel> channels = {};
+};
+
 /// What an extension says of a compressed buffer view.
 struct Compressed {
     std::string extension = {}; // empty: it is not compressed
@@ -123,41 +132,42 @@ struct Picture {
     int image = -1; // in the scene
 };
 
-/// A source or a camera of the file where a node puts it.
+/// A source, a camera or a light of the file where a node puts it.
 struct Placement {
     int node, what;
     Matrix toWorld;
+    Matrix instance = {}; // within the node
+    bool isFixed = false; // not by the node, but by joints
 };
 
 /// Bytes that one model's files of their own, and what is unpacked, may take together.
 const uint64_t mostExternalBytes = (uint64_t)1 << 31;
 
-/// What one call of vtLoadScene has so far. A function that returns false has called `fail`.
-struct Loader {
+/// What one call of vtOpenModel has so far.
+struct Loader : Report {
     const vtModelDef* def;
     vtScene* scene;
-    vtError* error;
-    vtResult result = vt_ok;
+    bool keeps; // what animations move
+    Rig rig = {};
     tinygltf::Model model = {}; // without its buffers and images, which are these:
     std::vector<Bytes> buffers = {};
     std::vector<std::vector<uint8_t>> ownedBuffers = {}; // bytes that `def` does not hold
     uint64_t budget = mostExternalBytes;                 // what is left of it
     std::vector<Compressed> compressed = {};             // as many as model.bufferViews, or none
     std::vector<Skin> skins = {};
+    std::vector<GivenAnimation> animations = {};
+    std::vector<size_t> reachedNodes = {}; // of the scene, in the order in which it names them
     std::vector<Picture> pictures = {};
     std::vector<Source> sources = {};
     std::vector<std::vector<int>> sourcesOf = {}; // each mesh of the file
     std::vector<int> reached = {}; // sources with triangles, in the order in which nodes name them
     std::vector<Placement> objects = {}, cameras = {}, lights = {};
-    size_t animationCount = 0, lightCount = 0;
+    size_t animationCount = 0, lightCount = 0, unplayed = 0;          // the latter: channels of animations
     std::vector<std::string> variants = {}, used = {}, required = {}; // the latter: extensions
     std::vector<std::string> ignored = {};                            // what noteIgnored was told
     std::string notes = {};                                           // what note was told, a line each
     int variant = -1;                                                 // of `variants`
     int primitivesWithoutTriangles = 0, turnedMeshes = 0;
-
-    /// Sets result and error; returns false.
-    bool fail(vtResult why, const char* format, ...) VT_PRINTF(3, 4);
 
     /// Tells what is left out of the picture: "normal maps of 2 materials". All that a file leaves out makes
     /// one line.
@@ -196,12 +206,6 @@ float readNumber(const Stream& stream, size_t i, size_t k);
 /// "2 materials", "1 material".
 std::string counted(size_t count, const char* what);
 
-/// Column-major product.
-Matrix multiply(const Matrix& a, const Matrix& b);
-
-/// From translation, rotation (a quaternion, of any length but 0) and scale.
-Matrix composeMatrix(const double translation[3], const double rotation[4], const double scale[3]);
-
 /// Fills model, buffers and pictures. `bin` is the container's BIN chunk, if any.
 bool parseDocument(Loader& loader, Bytes text, Bytes bin);
 
@@ -232,7 +236,20 @@ bool openPicture(Loader& loader, int index, std::vector<uint8_t>* contents, Byte
 /// own.
 bool findTextureSource(Loader& loader, int index, int* source);
 
-/// Fills sources, reached, objects and cameras from the scene's nodes.
+/// Fills the rig's animations, and tells its nodes what moves them.
+bool readAnimations(Loader& loader);
+
+/// Once the scene has materials: tells the channels that move them which they are.
+bool aimFactors(Loader& loader, const std::vector<uint32_t>& materialOf);
+
+/// Fills the rig's nodes and their order from the scene, all at rest; and skins as they are used.
+bool placeNodes(Loader& loader);
+bool openSkin(Loader& loader, int index);
+
+/// Morph targets of a mesh: those of its first primitive, says the standard.
+size_t targetCountOf(const tinygltf::Mesh& mesh);
+
+/// Fills sources, reached, objects, cameras and lights from the nodes that are placed.
 bool collectNodes(Loader& loader);
 
 /// The transforms of an EXT_mesh_gpu_instancing; *found is false where the node has none.
@@ -247,8 +264,17 @@ int materialOf(const tinygltf::Primitive& primitive, int variant);
 /// Checks a primitive and adds it to the parts of the source, unless it has no triangles.
 bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, Source* source);
 
-/// Moves a part's vertices as morph targets and skin say; normals may be null.
-void pose(const Source& source, const Part& part, float* positions, float* normals);
+/// The parts of one mesh to be, and what they have together.
+struct Group {
+    std::vector<const Part*> parts = {};
+    unsigned long long vertexCount = 0, indexCount = 0;
+    bool hasNormals = false, hasTexcoords = false, hasTexcoords1 = false, hasColors = false;
+    bool hasAlphas = false, hasTangents = true; // of every part
+};
+
+/// What moves a group's vertices, at rest: `positions` and `normals` (or null) are theirs.
+Shape makeShape(const Loader& loader, const Source& source, const Group& group, const float* positions,
+                const float* normals);
 
 /// The pictures of a material that are drawn.
 std::vector<TextureUse> texturesOf(const tinygltf::Material& material);
@@ -258,6 +284,9 @@ std::vector<int> texcoordSetsOf(const tinygltf::Material& material);
 
 /// Fills the material's maps, and the scene's images with their pictures.
 bool openMaps(Loader& loader, const tinygltf::Material& given, vtMaterial* material);
+
+/// KHR_materials_emissive_strength, or 1.
+float emissiveStrengthOf(const tinygltf::Material& material);
 
 /// Fills the scene's materials and images; materialOf[i + 1] is the scene's for the file's material i.
 bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf);
@@ -288,7 +317,33 @@ bool usesFeature(const tinygltf::Material& material, const vtGltfFeature& featur
 /// Fills the scene's notes.
 bool makeNotes(Loader& loader);
 
-/// Loads as vtLoadScene does.
+/// Loads as vtOpenModel does, the rig with what it moves where the loader keeps it.
 vtResult load(Loader& loader);
+
+/// Calls load, then `done(loader)`, which returns false after a failure. Nothing that is thrown leaves it; on
+/// failure the scene is empty.
+template <typename Done>
+vtResult loadSafely(const vtModelDef* def, vtScene* scene, bool keeps, vtError* error, const Done& done)
+{
+    const char* name = def->name != nullptr ? def->name : "";
+    vtResult result;
+    *scene = vtScene{};
+#ifdef __cpp_exceptions
+    try {
+#endif
+        Loader loader = {{name, error}, def, scene, keeps};
+        result = load(loader) == vt_ok && done(loader) ? vt_ok : loader.result;
+#ifdef __cpp_exceptions
+    } catch (const std::bad_alloc&) {
+        result = vtFail(error, vt_errorMemory, "model '%.200s': out of memory; simplify it", name);
+    } catch (...) {
+        result = vtFail(error, vt_errorFormat, "model '%.200s': it cannot be read" GLTF_DAMAGED, name);
+    }
+#endif
+    if (result != vt_ok) {
+        vtDestroyScene(scene);
+    }
+    return result;
+}
 
 } // namespace vtGltf

@@ -274,6 +274,9 @@ bool parseDocument(Loader& loader, Bytes text, Bytes bin)
         return false;
     }
     countUnread(loader, document);
+    if (!loader.keeps) {
+        document.erase("animations"); // they are not played
+    }
     if (!tidyDocument(loader, document)) {
         return false;
     }
@@ -281,7 +284,8 @@ bool parseDocument(Loader& loader, Bytes text, Bytes bin)
     const Json buffers = std::move(document["buffers"]);
     const Json images = std::move(document["images"]);
     const Json skins = std::move(document["skins"]);
-    for (const char* key : {"buffers", "images", "skins"}) {
+    const Json animations = std::move(document["animations"]);
+    for (const char* key : {"buffers", "images", "skins", "animations"}) {
         document.erase(key);
     }
     if (document.contains("bufferViews")) {
@@ -301,6 +305,7 @@ bool parseDocument(Loader& loader, Bytes text, Bytes bin)
     }
     listPictures(loader, images);
     listSkins(loader, skins);
+    listAnimations(loader, animations);
     return true;
 }
 

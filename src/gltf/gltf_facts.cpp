@@ -58,13 +58,20 @@ static bool collectFacts(const Loader& loader, vtModelFacts* facts)
     facts->textureCount = (uint32_t)model.textures.size();
     facts->imageCount = (uint32_t)loader.pictures.size();
     facts->skinCount = (uint32_t)loader.skins.size();
-    facts->animationCount = (uint32_t)loader.animationCount;
+    facts->animationCount = (uint32_t)loader.rig.animations.size();
     facts->lightCount = (uint32_t)loader.lightCount;
     const std::vector<int> materials = listMaterials(loader);
     facts->materials = (vtMaterialFacts*)vtAllocateZeroed(materials.size(), sizeof *facts->materials);
-    if (facts->materials == nullptr || !join(loader.variants, &facts->variants) ||
-        !join(loader.used, &facts->used) || !join(loader.required, &facts->required)) {
+    facts->animations = (vtAnimationFacts*)vtAllocateZeroed(facts->animationCount, sizeof *facts->animations);
+    if (facts->materials == nullptr || facts->animations == nullptr ||
+        !join(loader.variants, &facts->variants) || !join(loader.used, &facts->used) ||
+        !join(loader.required, &facts->required)) {
         return false;
+    }
+    for (uint32_t i = 0; i < facts->animationCount; ++i) {
+        const Animation& animation = loader.rig.animations[i];
+        snprintf(facts->animations[i].name, sizeof facts->animations[i].name, "%s", animation.name.c_str());
+        facts->animations[i].duration = animation.facts.duration;
     }
     for (const int material : materials) {
         describeMaterial(loader, material, &facts->materials[facts->usedMaterialCount++]);
@@ -72,28 +79,15 @@ static bool collectFacts(const Loader& loader, vtModelFacts* facts)
     return true;
 }
 
-static vtResult inspect(const vtModelDef* def, vtScene* scene, vtModelFacts* facts, vtError* error)
-{
-    try {
-        Loader loader = {def, scene, error};
-        const vtResult result = load(loader);
-        return result != vt_ok || collectFacts(loader, facts)
-                   ? result
-                   : vtFail(error, vt_errorMemory, "model '%.200s': out of memory", def->name);
-    } catch (...) { // memory above all
-        return vtFail(error, vt_errorFormat, "model '%.200s': it cannot be read" GLTF_DAMAGED, def->name);
-    }
-}
-
 } // namespace vtGltf
 
 extern "C" vtResult vtInspectModel(const vtModelDef* def, vtScene* scene, vtModelFacts* facts, vtError* error)
 {
-    *scene = vtScene{};
     *facts = vtModelFacts{};
-    const vtResult result = vtGltf::inspect(def, scene, facts, error);
+    const vtResult result = vtGltf::loadSafely(def, scene, true, error, [facts](vtGltf::Loader& loader) {
+        return vtGltf::collectFacts(loader, facts) || loader.fail(vt_errorMemory, "out of memory");
+    });
     if (result != vt_ok) {
-        vtDestroyScene(scene);
         vtDestroyModelFacts(facts);
     }
     return result;
@@ -105,6 +99,7 @@ extern "C" void vtDestroyModelFacts(vtModelFacts* facts)
     vtFree(facts->used);
     vtFree(facts->required);
     vtFree(facts->materials);
+    vtFree(facts->animations);
     *facts = vtModelFacts{};
 }
 #endif

@@ -82,4 +82,7 @@ using Json = nlohmann::json;
 /// Drops what is not read of a file's JSON; refuses what tinygltf would misread.
 bool tidyDocument(Loader& loader, Json& document);
 
+/// What a tidied file says of its animations, for readAnimations.
+void listAnimations(Loader& loader, const Json& animations);
+
 } // namespace vtGltf

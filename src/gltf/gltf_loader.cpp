@@ -16,13 +16,13 @@ static std::string print(const char* format, va_list arguments)
     return text;
 }
 
-bool Loader::fail(vtResult why, const char* format, ...)
+bool Report::fail(vtResult why, const char* format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
     const std::string reason = print(format, arguments);
     va_end(arguments);
-    result = vtFail(error, why, "model '%.200s': %s", def->name != nullptr ? def->name : "", reason.c_str());
+    result = vtFail(error, why, "model '%.200s': %s", name, reason.c_str());
     return false;
 }
 
@@ -38,8 +38,7 @@ void Loader::note(const char* format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    notes += (notes.empty() ? "'" : "\n'") + quotable(def->name != nullptr ? def->name : "") +
-             "': " + print(format, arguments);
+    notes += (notes.empty() ? "'" : "\n'") + quotable(name) + "': " + print(format, arguments);
     va_end(arguments);
 }
 

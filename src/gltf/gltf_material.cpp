@@ -98,6 +98,12 @@ static bool readAttenuation(Loader& loader, int index, vtMaterial* material)
     return true;
 }
 
+float emissiveStrengthOf(const tinygltf::Material& material)
+{
+    const tinygltf::Value* value = findValue(material, "KHR_materials_emissive_strength", "emissiveStrength");
+    return value != nullptr && value->IsNumber() ? (float)value->GetNumberAsDouble() : 1.0f;
+}
+
 // --------------------------------------------------------------------------------------------- materials
 
 /// What the surface itself is, glass or not.

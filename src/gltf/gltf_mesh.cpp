@@ -9,14 +9,6 @@
 namespace vtGltf
 {
 
-/// The parts of one mesh to be, and what they have together.
-struct Group {
-    std::vector<const Part*> parts = {};
-    unsigned long long vertexCount = 0, indexCount = 0;
-    bool hasNormals = false, hasTexcoords = false, hasTexcoords1 = false, hasColors = false;
-    bool hasAlphas = false, hasTangents = true; // of every part
-};
-
 /// Copies a stream; what the part lacks stays `missing`.
 static void writeNumbers(const Part& part, const Stream& stream, size_t components, float missing, float* to)
 {
@@ -99,16 +91,19 @@ static bool areNormalsAgainst(const vtMeshDef& def)
     return sum < 0.0;
 }
 
-/// Makes the mesh; closed glass that is inside out, which would have no inside, is turned.
+/// Makes the mesh; closed glass that is inside out, which would have no inside, is turned: *turnsNormals,
+/// its normals, too.
 static bool createMesh(Loader& loader, vtMeshDef& def, float* normals, uint32_t* indices, bool isGlass,
-                       const std::string& name, vtMesh* mesh)
+                       const std::string& name, vtMesh* mesh, bool* turnsNormals)
 {
+    *turnsNormals = false;
     vtError error = {};
     vtResult result = vtCreateMesh(&def, name.c_str(), mesh, &error);
     if (result == vt_ok && isGlass && mesh->openEdgeCount == 0 && mesh->volume < 0.0) {
         vtDestroyMesh(mesh);
         turnTriangles(indices, def.indexCount);
-        if (normals != nullptr && areNormalsAgainst(def)) {
+        *turnsNormals = normals != nullptr && areNormalsAgainst(def);
+        if (*turnsNormals) {
             for (size_t i = 0; i < 3 * (size_t)def.vertexCount; ++i) {
                 normals[i] = -normals[i];
             }
@@ -120,7 +115,7 @@ static bool createMesh(Loader& loader, vtMeshDef& def, float* normals, uint32_t*
 }
 
 /// Is any of it moved by morph targets or joints? Tangents are not moved along: they are computed then.
-static bool isSkinned(const Group& group)
+static bool isPosed(const Group& group)
 {
     return std::any_of(group.parts.begin(), group.parts.end(),
                        [](const Part* part) { return !part->targets.empty() || !part->influences.empty(); });
@@ -157,8 +152,6 @@ static bool makeMesh(Loader& loader, const Source& source, const Group& group, b
         if (normals) { // those of zero length are computed by vtCreateMesh
             writeNumbers(*part, part->normals, 3, 0.0f, normals.get() + 3 * vertex);
         }
-        pose(source, *part, positions.get() + 3 * vertex,
-             normals && part->normals.data != nullptr ? normals.get() + 3 * vertex : nullptr);
         if (texcoords) {
             writeNumbers(*part, part->texcoords, 2, 0.0f, texcoords.get() + 2 * vertex);
         }
@@ -194,8 +187,24 @@ static bool makeMesh(Loader& loader, const Source& source, const Group& group, b
     def.colors = colors.get();
     def.alphas = alphas.get();
     def.texcoords1 = texcoords1.get();
-    def.tangents = isSkinned(group) ? nullptr : tangents.get();
-    return createMesh(loader, def, normals.get(), indices.get(), isGlass, name, mesh);
+    def.tangents = isPosed(group) ? nullptr : tangents.get();
+    bool turnsNormals = false, isKept = false;
+    if (isPosed(group)) {
+        Shape shape = makeShape(loader, source, group, positions.get(), normals.get());
+        pose(shape, positions.get(), normals.get());
+        isKept = loader.keeps &&
+                 (source.node >= 0 || (source.skin >= 0 && loader.rig.skins[(size_t)source.skin].moves));
+        if (isKept) {
+            shape.mesh = loader.scene->meshCount;
+            loader.rig.shapes.push_back(std::move(shape));
+        }
+    }
+    const bool made =
+        createMesh(loader, def, normals.get(), indices.get(), isGlass, name, mesh, &turnsNormals);
+    if (isKept) {
+        loader.rig.shapes.back().turnsNormals = turnsNormals;
+    }
+    return made;
 }
 
 /// Adds the part to the group of its material, in the order in which the materials come.
@@ -286,11 +295,16 @@ bool makeMeshes(Loader& loader, const std::vector<uint32_t>& materialOf)
             if (!makeMesh(loader, source, groups[i][k], isGlass, name, &scene->meshes[scene->meshCount])) {
                 return false;
             }
+            const bool isKept =
+                !loader.rig.shapes.empty() && loader.rig.shapes.back().mesh == scene->meshCount;
             const vtMap& bumps = scene->materials[source.materials[k]].maps[vt_mapNormal];
             vtError error = {};
             if (bumps.image >= 0 &&
                 vtComputeTangents(&scene->meshes[scene->meshCount], bumps.texcoords, &error) != vt_ok) {
                 return loader.fail(error.result, "%s", error.message);
+            }
+            if (isKept && bumps.image >= 0) {
+                loader.rig.shapes.back().tangents = bumps.texcoords;
             }
             source.meshes.push_back(scene->meshCount++);
         }

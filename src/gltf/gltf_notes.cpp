@@ -56,7 +56,10 @@ static void noteMaterials(Loader& loader)
 /// What was dropped unseen of the whole file.
 static void noteUnread(Loader& loader)
 {
-    if (loader.animationCount > 0) {
+    if (loader.unplayed > 0) {
+        loader.noteIgnored("%s of animations", counted(loader.unplayed, "channel").c_str());
+    }
+    if (loader.animationCount > 0 && !loader.keeps) {
         loader.noteIgnored("%s", counted(loader.animationCount, "animation").c_str());
     }
     if (loader.variant < 0 && !loader.variants.empty()) {

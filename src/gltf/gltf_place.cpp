@@ -54,10 +54,10 @@ static bool fits(const vtTransform& toWorld, const vtMesh& mesh)
     return finite;
 }
 
-/// What the renderer can invert: the limits are those of vtValidateScene.
-static bool toTransform(Loader& loader, const Placement& at, vtTransform* transform)
+bool toTransform(Report& report, const std::string& label, const Matrix& toWorld, const vtMesh& mesh,
+                 vtTransform* transform)
 {
-    const double* m = at.toWorld.m;
+    const double* m = toWorld.m;
     double columns[3], rows[3];
     for (size_t i = 0; i < 3; ++i) {
         columns[i] = std::hypot(m[4 * i], m[4 * i + 1], m[4 * i + 2]);
@@ -66,24 +66,20 @@ static bool toTransform(Loader& loader, const Placement& at, vtTransform* transf
             transform->rows[i][k] = (float)m[4 * k + i];
         }
     }
-    bool far = !isFinite(at.toWorld);
-    for (const uint32_t mesh : loader.sources[(size_t)at.what].meshes) {
-        far = far || !fits(*transform, loader.scene->meshes[mesh]);
-    }
-    if (far) {
-        return loader.fail(vt_errorGeometry,
+    if (!isFinite(toWorld) || !fits(*transform, mesh)) {
+        return report.fail(vt_errorGeometry,
                            "node %s is scaled by %g, %g, %g or moved so far that 32-bit numbers do not hold "
                            "it; scale the scene down",
-                           nodeLabel(loader, at.node).c_str(), columns[0], columns[1], columns[2]);
+                           label.c_str(), columns[0], columns[1], columns[2]);
     }
     const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
                                m[8] * (m[1] * m[6] - m[2] * m[5]);
     if (!(std::fabs(determinant) > 1e-6 * rows[0] * rows[1] * rows[2]) ||
         !std::isnormal((float)determinant)) {
-        return loader.fail(vt_errorGeometry,
+        return report.fail(vt_errorGeometry,
                            "node %s is scaled by %g, %g, %g along its axes in the world, which makes it "
                            "flat; give it and those above it a scale other than 0 along each axis",
-                           nodeLabel(loader, at.node).c_str(), columns[0], columns[1], columns[2]);
+                           label.c_str(), columns[0], columns[1], columns[2]);
     }
     return true;
 }
@@ -112,32 +108,60 @@ bool makeObjects(Loader& loader)
     for (const Placement& at : loader.objects) {
         const Source& source = loader.sources[(size_t)at.what];
         const std::string& own = loader.model.nodes[(size_t)at.node].name;
-        vtTransform toWorld;
-        if (!toTransform(loader, at, &toWorld)) {
-            return false;
-        }
+        const Node& node = loader.rig.nodes[(size_t)at.node];
         ++body;
         for (size_t i = 0; i < source.meshes.size(); ++i) {
             vtObject* object = &scene->objects[scene->objectCount++];
             object->mesh = source.meshes[i];
             object->material = source.materials[i];
-            object->toWorld = toWorld;
+            if (!toTransform(loader, nodeLabel(loader, at.node), at.toWorld, scene->meshes[object->mesh],
+                             &object->toWorld)) {
+                return false;
+            }
             object->body = source.bounds[i] ? body : 0;
             copyName(own.empty() ? loader.model.meshes[(size_t)source.mesh].name : own, object->name,
                      sizeof object->name);
+            if (loader.keeps && node.moves && !at.isFixed) {
+                loader.rig.objects.push_back({scene->objectCount - 1, (size_t)at.node, at.instance});
+            }
         }
     }
     return true;
 }
 
-/// Their roll is lost, since views are level.
+/// Its roll is lost, since views are level.
+bool placeView(Report& report, const std::string& label, const Matrix& toWorld, const double middle[3],
+               vtView* view)
+{
+    const double* m = toWorld.m;
+    const double length = std::hypot(m[8], m[9], m[10]);
+    if (!isFinite(toWorld) || !std::isnormal(length)) {
+        return report.fail(vt_errorGeometry,
+                           "node %s scales its camera by %g along its view; give it a scale of 1",
+                           label.c_str(), length);
+    }
+    double distance = 0.0, target[3];
+    for (size_t k = 0; k < 3; ++k) {
+        distance -= (middle[k] - m[12 + k]) * m[8 + k] / length;
+    }
+    distance = distance > 0.0 && std::isfinite((float)distance) ? distance : 1.0;
+    for (size_t k = 0; k < 3; ++k) {
+        target[k] = m[12 + k] - distance * m[8 + k] / length;
+    }
+    view->eye = {(float)m[12], (float)m[13], (float)m[14]};
+    view->target = {(float)target[0], (float)target[1], (float)target[2]};
+    return true;
+}
+
 bool makeCameras(Loader& loader)
 {
     vtScene* scene = loader.scene;
     vtVec3 low, high;
     vtScene_Bounds(scene, &low, &high);
-    const double middle[3] = {0.5 * ((double)low.x + (double)high.x), 0.5 * ((double)low.y + (double)high.y),
-                              0.5 * ((double)low.z + (double)high.z)};
+    double* middle = loader.rig.middle;
+    middle[0] = 0.5 * ((double)low.x + (double)high.x);
+    middle[1] = 0.5 * ((double)low.y + (double)high.y);
+    middle[2] = 0.5 * ((double)low.z + (double)high.z);
     if (!loader.allocate(loader.cameras.size(), &scene->cameras)) {
         return false;
     }
@@ -154,28 +178,17 @@ bool makeCameras(Loader& loader)
             return loader.fail(vt_errorFormat, "camera %s has a ymag of %g, but it must not be 0; correct it",
                                label(at.what, camera.name).c_str(), ymag);
         }
-        const double* m = at.toWorld.m;
-        const double length = std::hypot(m[8], m[9], m[10]);
-        if (!isFinite(at.toWorld) || !std::isnormal(length)) {
-            return loader.fail(vt_errorGeometry,
-                               "node %s scales its camera by %g along its view; give it a scale of 1",
-                               nodeLabel(loader, at.node).c_str(), length);
-        }
-        double distance = 0.0, target[3];
-        for (size_t k = 0; k < 3; ++k) {
-            distance -= (middle[k] - m[12 + k]) * m[8 + k] / length;
-        }
-        distance = distance > 0.0 && std::isfinite((float)distance) ? distance : 1.0;
-        for (size_t k = 0; k < 3; ++k) {
-            target[k] = m[12 + k] - distance * m[8 + k] / length;
-        }
         vtSceneCamera* made = &scene->cameras[scene->cameraCount++];
         vtView* view = &made->view;
         const std::string& own = loader.model.nodes[(size_t)at.node].name;
         copyName(own.empty() ? camera.name : own, made->name, sizeof made->name);
         made->orthographicHeight = isFlat ? (float)(2.0 * std::fabs(ymag)) : 0.0f;
-        view->eye = {(float)m[12], (float)m[13], (float)m[14]};
-        view->target = {(float)target[0], (float)target[1], (float)target[2]};
+        if (!placeView(loader, nodeLabel(loader, at.node), at.toWorld, middle, view)) {
+            return false;
+        }
+        if (loader.keeps && loader.rig.nodes[(size_t)at.node].moves) {
+            loader.rig.cameras.push_back({scene->cameraCount - 1, (size_t)at.node});
+        }
         view->fovY = (float)std::clamp(yfov * 180.0 / pi, 1.0, 170.0);
     }
     return true;

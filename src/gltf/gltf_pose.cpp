@@ -1,92 +1,172 @@
-// Vertices as morph targets and skins put them, in the pose that the file has.
+// Vertices as morph targets and skins put them: first what they are moved by, taken from the file's streams,
+// then how they are moved.
 
 #include "gltf/gltf.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vtGltf
 {
 
-static void morph(const Part& part, float* positions, float* normals)
+// --------------------------------------------------------------------------------------------- shapes
+
+/// A stream's numbers, three a vertex, from `first` on.
+static void copyVectors(const Stream& stream, size_t first, Kept<float>* to)
+{
+    for (size_t i = 0; stream.data != nullptr && i < 3 * stream.count; ++i) {
+        (*to)[3 * first + i] = readNumber(stream, i / 3, i % 3);
+    }
+}
+
+static void addMorphs(const Part& part, size_t first, Shape* shape)
 {
     for (const Target& target : part.targets) {
-        for (size_t i = 0; i < 3 * part.positions.count; ++i) {
-            const auto add = [&](const Stream& stream, float* to) {
-                if (stream.data != nullptr && to != nullptr) {
-                    to[i] += (float)(target.weight * (double)readNumber(stream, i / 3, i % 3));
-                }
-            };
-            add(target.positions, positions);
-            add(target.normals, normals);
+        auto at = std::find_if(shape->morphs.begin(), shape->morphs.end(),
+                               [&](const Morph& morph) { return morph.index == target.index; });
+        if (at == shape->morphs.end()) {
+            at = shape->morphs.insert(at, Morph{target.index});
+            at->positions.resize(shape->positions.size());
+            at->normals.resize(shape->normals.size());
+        }
+        copyVectors(target.positions, first, &at->positions);
+        if (part.normals.data != nullptr) { // else they are computed
+            copyVectors(target.normals, first, &at->normals);
         }
     }
 }
 
-/// The mean of the joints that a vertex hangs on, weighted; where all weights are 0, the first of them.
-static Matrix blend(const Source& source, const Part& part, size_t vertex)
+/// Joints and weights of a part's vertices. Where all weights are 0 it is the first joint alone.
+static void addInfluences(const Part& part, size_t first, size_t jointCount, Shape* shape)
 {
-    double sum = 0.0;
-    Matrix mean = {};
-    for (double& number : mean.m) {
-        number = 0.0;
-    }
-    const auto add = [&](const Influence& influence, size_t k, double weight) {
-        const size_t joint = (size_t)readNumber(influence.joints, vertex, k);
-        for (int i = 0; i < 16 && joint < source.joints.size(); ++i) {
-            mean.m[i] += weight * source.joints[joint].m[i];
+    for (size_t i = 0; i < part.positions.count && !part.influences.empty(); ++i) {
+        uint32_t* joints = &shape->joints[shape->influenceCount * (first + i)];
+        float* weights = &shape->weights[shape->influenceCount * (first + i)];
+        double sum = 0.0;
+        for (size_t k = 0; k < 4 * part.influences.size(); ++k) {
+            const Influence& influence = part.influences[k / 4];
+            const float joint = readNumber(influence.joints, i, k % 4);
+            joints[k] = joint >= 0.0f && joint < (float)jointCount ? (uint32_t)joint : (uint32_t)jointCount;
+            weights[k] = readNumber(influence.weights, i, k % 4);
+            sum += (double)weights[k];
         }
-        sum += weight;
-    };
-    for (const Influence& influence : part.influences) {
-        for (size_t k = 0; k < 4; ++k) {
-            const double weight = (double)readNumber(influence.weights, vertex, k);
-            if (weight != 0.0) {
-                add(influence, k, weight);
-            }
+        for (size_t k = 0; k < 4 * part.influences.size(); ++k) {
+            weights[k] = sum != 0.0 ? (float)((double)weights[k] / sum) : k == 0 ? 1.0f : 0.0f;
         }
     }
-    if (!(std::fabs(sum) > 0.0)) {
-        add(part.influences[0], 0, 1.0);
-    }
-    for (double& number : mean.m) {
-        number /= sum;
-    }
-    return mean;
 }
 
-/// By the inverse transposed, but for its length.
+Shape makeShape(const Loader& loader, const Source& source, const Group& group, const float* positions,
+                const float* normals)
+{
+    Shape shape;
+    const size_t vertexCount = (size_t)group.vertexCount;
+    shape.node = source.node;
+    shape.skin = source.skin;
+    shape.positions.assign(positions, positions + 3 * vertexCount);
+    if (normals != nullptr) {
+        shape.normals.assign(normals, normals + 3 * vertexCount);
+    }
+    for (const Part* part : group.parts) {
+        shape.influenceCount = std::max(shape.influenceCount, 4 * part->influences.size());
+    }
+    const size_t jointCount = source.skin >= 0 ? loader.rig.skins[(size_t)source.skin].nodes.size() : 0;
+    shape.joints.resize(shape.influenceCount * vertexCount, (uint32_t)jointCount);
+    shape.weights.resize(shape.influenceCount * vertexCount, 0.0f);
+    for (size_t i = 0; i < shape.weights.size(); i += shape.influenceCount) {
+        shape.weights[i] = 1.0f; // of vertices that no joint moves
+    }
+    size_t first = 0;
+    for (const Part* part : group.parts) {
+        addMorphs(*part, first, &shape);
+        addInfluences(*part, first, jointCount, &shape);
+        first += part->positions.count;
+    }
+    shape.posedWeights.assign(source.weights.begin(), source.weights.end());
+    if (shape.influenceCount > 0) {
+        placeJoints(loader.rig, source.skin, &shape.posedJoints);
+    }
+    return shape;
+}
+
+// --------------------------------------------------------------------------------------------- posing
+
+void placeJoints(const Rig& rig, int skin, Kept<Matrix>* joints)
+{
+    const Joints& from = rig.skins[(size_t)skin];
+    joints->assign(from.nodes.size() + 1, Matrix());
+    for (size_t i = 0; i < from.nodes.size(); ++i) {
+        (*joints)[i] = multiply(rig.nodes[from.nodes[i]].toWorld, from.binds[i]);
+    }
+}
+
+static void addScaled(const Kept<float>& numbers, double factor, float* to)
+{
+    for (size_t i = 0; i < numbers.size(); ++i) {
+        to[i] += (float)(factor * (double)numbers[i]);
+    }
+}
+
+/// The first three rows of the mean of the joints that a vertex hangs on, by their weights; column-major.
+static void blend(const Shape& shape, size_t vertex, double* mean)
+{
+    std::fill_n(mean, 12, 0.0);
+    for (size_t k = 0; k < shape.influenceCount; ++k) {
+        const double weight = (double)shape.weights[shape.influenceCount * vertex + k];
+        const double* m = shape.posedJoints[shape.joints[shape.influenceCount * vertex + k]].m;
+        for (int i = 0; i < 12 && weight != 0.0; ++i) {
+            mean[i] += weight * m[i + i / 3];
+        }
+    }
+}
+
+/// By the inverse transposed of 3 x 3 numbers, but for its length.
 static void turnNormal(const double* m, float* n)
 {
-    double cofactors[3][3], turned[3];
+    // Cofactors, row by row.
+    const double c[9] = {m[4] * m[8] - m[7] * m[5], m[7] * m[2] - m[1] * m[8], m[1] * m[5] - m[4] * m[2],
+                         m[6] * m[5] - m[3] * m[8], m[0] * m[8] - m[6] * m[2], m[3] * m[2] - m[0] * m[5],
+                         m[3] * m[7] - m[6] * m[4], m[6] * m[1] - m[0] * m[7], m[0] * m[4] - m[3] * m[1]};
+    const double x = (double)n[0], y = (double)n[1], z = (double)n[2];
+    double turned[3];
     for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            const int a = (row + 1) % 3, b = (row + 2) % 3, c = (column + 1) % 3, d = (column + 2) % 3;
-            cofactors[row][column] = m[4 * c + a] * m[4 * d + b] - m[4 * c + b] * m[4 * d + a];
-        }
-        turned[row] = cofactors[row][0] * (double)n[0] + cofactors[row][1] * (double)n[1] +
-                      cofactors[row][2] * (double)n[2];
+        turned[row] = c[3 * row] * x + c[3 * row + 1] * y + c[3 * row + 2] * z;
     }
-    const double determinant = m[0] * cofactors[0][0] + m[1] * cofactors[1][0] + m[2] * cofactors[2][0];
-    const double length = std::hypot(turned[0], turned[1], turned[2]) * (determinant < 0.0 ? -1.0 : 1.0);
+    const double determinant = m[0] * c[0] + m[3] * c[1] + m[6] * c[2];
+    const double square = turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2];
+    const double length = std::sqrt(square) * (determinant < 0.0 ? -1.0 : 1.0);
     for (int row = 0; row < 3; ++row) {
         n[row] = (float)(length != 0.0 ? turned[row] / length : 0.0);
     }
 }
 
-void pose(const Source& source, const Part& part, float* positions, float* normals)
+void pose(const Shape& shape, float* positions, float* normals)
 {
-    morph(part, positions, normals);
-    for (size_t i = 0; !part.influences.empty() && i < part.positions.count; ++i) {
-        const Matrix matrix = blend(source, part, i);
-        const double* m = matrix.m;
+    std::copy(shape.positions.begin(), shape.positions.end(), positions);
+    if (normals != nullptr) {
+        std::copy(shape.normals.begin(), shape.normals.end(), normals);
+    }
+    for (const Morph& morph : shape.morphs) {
+        const double weight = morph.index < shape.posedWeights.size() ? shape.posedWeights[morph.index] : 0.0;
+        if (weight != 0.0) {
+            addScaled(morph.positions, weight, positions);
+            addScaled(morph.normals, weight, normals);
+        }
+    }
+    for (size_t i = 0; shape.influenceCount > 0 && i < shape.positions.size() / 3; ++i) {
+        double m[12];
+        blend(shape, i, m);
         float* p = positions + 3 * i;
         const double x = (double)p[0], y = (double)p[1], z = (double)p[2];
         for (int row = 0; row < 3; ++row) {
-            p[row] = (float)(m[row] * x + m[4 + row] * y + m[8 + row] * z + m[12 + row]);
+            p[row] = (float)(m[row] * x + m[3 + row] * y + m[6 + row] * z + m[9 + row]);
         }
         if (normals != nullptr) {
             turnNormal(m, normals + 3 * i);
         }
+    }
+    for (size_t i = 0; shape.turnsNormals && i < shape.normals.size(); ++i) {
+        normals[i] = -normals[i];
     }
 }
 

@@ -128,13 +128,13 @@ static bool openAttribute(Opening& from, const std::map<std::string, int>& attri
             hasAll(from.loader, *stream, index, name, part));
 }
 
-/// Opens the morph targets whose weights are not 0.
+/// Opens the morph targets whose weights are animated, or not 0.
 static bool openTargets(Opening& from, const tinygltf::Primitive& primitive, const Source& source, Part* part)
 {
     Opening plain = {from.loader, {}}; // targets are never packed with the primitive
     for (size_t i = 0; i < primitive.targets.size() && i < source.weights.size(); ++i) {
-        Target target = {source.weights[i], {}, {}};
-        if (target.weight == 0.0) {
+        Target target = {i, {}, {}};
+        if (source.weights[i] == 0.0 && source.node < 0) {
             continue;
         }
         if (!openAttribute(plain, primitive.targets[i], "POSITION", 3, false, *part, &target.positions) ||
@@ -150,6 +150,7 @@ static bool openTargets(Opening& from, const tinygltf::Primitive& primitive, con
 static bool openInfluences(Opening& from, const tinygltf::Primitive& primitive, const Source& source,
                            Part* part)
 {
+    const size_t jointCount = source.skin >= 0 ? from.loader.rig.skins[(size_t)source.skin].nodes.size() : 0;
     for (int set = 0; source.skin >= 0; ++set) {
         const std::string joints = "JOINTS_" + std::to_string(set),
                           weights = "WEIGHTS_" + std::to_string(set);
@@ -163,12 +164,12 @@ static bool openInfluences(Opening& from, const tinygltf::Primitive& primitive, 
         }
         for (size_t i = 0; i < 4 * part->positions.count; ++i) {
             const float joint = readNumber(influence.joints, i / 4, i % 4);
-            if (!(joint >= 0.0f && joint < (float)source.joints.size()) &&
+            if (!(joint >= 0.0f && joint < (float)jointCount) &&
                 readNumber(influence.weights, i / 4, i % 4) != 0.0f) {
                 return from.loader.fail(
                     vt_errorFormat,
                     "vertex %zu of mesh %d hangs on joint %g, but skin %d has %zu" GLTF_DAMAGED, i / 4,
-                    source.mesh, (double)joint, source.skin, source.joints.size());
+                    source.mesh, (double)joint, source.skin, jointCount);
             }
         }
         part->influences.push_back(influence);

@@ -11,14 +11,20 @@ typedef struct vtMaterialFacts {
     char drawn[512], ignored[512];
 } vtMaterialFacts;
 
+typedef struct vtAnimationFacts {
+    char name[64];
+    double duration; ///< seconds
+} vtAnimationFacts;
+
 typedef struct vtModelFacts {
     uint32_t nodeCount, meshCount, materialCount, textureCount, imageCount; ///< of the file
     uint32_t skinCount, animationCount, lightCount;
     char *variants, *used, *required; ///< names of variants and extensions, a line each; NULL: none
     vtMaterialFacts* materials;
+    vtAnimationFacts* animations; ///< animationCount
     uint32_t usedMaterialCount;
 } vtModelFacts;
 
-/// As vtLoadScene; *facts is zeroed on failure.
+/// As vtOpenModel; *facts is zeroed on failure.
 vtResult vtInspectModel(const vtModelDef* def, vtScene* scene, vtModelFacts* facts, vtError* error);
 void vtDestroyModelFacts(vtModelFacts* facts);

@@ -24,6 +24,7 @@ typedef struct vtHierarchy {
     vtVec3 gridLow, gridScale; ///< step = (p - gridLow) * gridScale; the box lies in steps 1 to 4095
     float cost;                ///< as built: records that a ray through the mesh's box reaches on average
     float refitCost;           ///< the same now
+    uint32_t builds;           ///< how often it was built anew after refits (vtMesh_Update)
 } vtHierarchy;
 
 /// What a ray meets.

@@ -490,6 +490,7 @@ static vtResult updateHierarchy(vtMesh* mesh, vtError* error)
         vtHierarchy fresh;
         result = vtCreateHierarchy(mesh, &fresh, error);
         if (result == vt_ok) {
+            fresh.builds = mesh->hierarchy->builds + 1;
             vtDestroyHierarchy(mesh->hierarchy);
             *mesh->hierarchy = fresh;
         }
@@ -510,6 +511,7 @@ vtResult vtMesh_Update(vtMesh* mesh, const float* positions, const float* normal
         return vtFail(error, vt_errorGeometry, "mesh: a new position or normal is not a finite number");
     }
     memcpy(mesh->positions, positions, count * sizeof *positions);
+    ++mesh->updates;
     findBounds(mesh);
     findVolume(mesh);
     vtFree(mesh->innerDistances);

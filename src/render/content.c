@@ -29,8 +29,7 @@ static vtResult beginChange(vtRenderer* renderer, const void* thing, const char*
     return result;
 }
 
-/// What was computed of the content before: the samples, and what falls on the ground.
-static void forgetDrawn(vtRenderer* renderer)
+void vtForgetDrawn(vtRenderer* renderer)
 {
     renderer->sampleEnd = 0;
     renderer->ground.isStale = true;
@@ -40,7 +39,7 @@ static vtResult endChange(vtRenderer* renderer, vtResult result, vtError* error)
 {
     vtLeaveState(&renderer->gl);
     if (result == vt_ok) {
-        forgetDrawn(renderer);
+        vtForgetDrawn(renderer);
         return vtSucceed(error);
     }
     return result;
@@ -347,7 +346,7 @@ vtResult vtRenderer_AddInstance(vtRenderer* renderer, const vtInstanceDef* def, 
         return result;
     }
     vtSlots_Add(&renderer->instanceSlots, at, &id->index1, &id->generation);
-    forgetDrawn(renderer);
+    vtForgetDrawn(renderer);
     return vtSucceed(error);
 }
 
@@ -374,7 +373,7 @@ vtResult vtRenderer_SetInstance(vtRenderer* renderer, vtInstanceId id, const vtI
     renderer->scene.instances[at] = object;
     renderer->scene.materials[at] = def->material;
     renderer->scene.isStale = true;
-    forgetDrawn(renderer);
+    vtForgetDrawn(renderer);
     return vtSucceed(error);
 }
 
@@ -404,7 +403,7 @@ vtResult vtRenderer_RemoveInstance(vtRenderer* renderer, vtInstanceId id, vtErro
         return result;
     }
     removeInstance(renderer, at);
-    forgetDrawn(renderer);
+    vtForgetDrawn(renderer);
     return vtSucceed(error);
 }
 
@@ -465,6 +464,6 @@ vtResult vtRenderer_SetGround(vtRenderer* renderer, const vtGround* ground, vtEr
     }
     renderer->ground.isThere = ground != NULL;
     renderer->ground.ground = ground != NULL ? *ground : vtDefaultGround();
-    forgetDrawn(renderer);
+    vtForgetDrawn(renderer);
     return vtSucceed(error);
 }

@@ -55,6 +55,9 @@ struct vtRenderer {
 /// Fails with vt_errorArgument where there is no renderer or no other thing that the call needs.
 vtResult vtCheckGiven(const vtRenderer* renderer, const void* thing, const char* what, vtError* error);
 
+/// What was computed of the content before: the samples, and what falls on the ground.
+void vtForgetDrawn(vtRenderer* renderer);
+
 /// Of a page, which loads some shaders once a frame lacks them: the file that cmake/EmbedShaders.cmake made,
 /// with 0 for each form feed and one more at its end. The caller keeps it. Fails where it is another build's.
 vtResult vtRenderer_SetLaterShaders(vtRenderer* renderer, const char* file, vtError* error);

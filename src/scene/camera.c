@@ -269,6 +269,29 @@ vtView vtViewOfScene(const vtScene* scene, float fovY, float aspect)
     return view;
 }
 
+vtView vtJoinViews(const vtView* views, int count, float aspect)
+{
+    vtView joined = views[0];
+    const vtCamera camera = vtMakeViewCamera(&joined);
+    const float tangentY = 0.9f * tanf(joined.fovY * VT_PI / 360.0f), tangentX = tangentY * aspect;
+    vtVec3 low = joined.target, high = low;
+    for (int i = 1; i < count; ++i) {
+        const vtVec3 p = views[i].target;
+        low = (vtVec3){fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z)};
+        high = (vtVec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
+    }
+    joined.target = vtScale(vtAdd(low, high), 0.5f);
+    float distance = 0.0f;
+    for (int i = 0; i < count; ++i) { // what is in a view's frame is beside its target by so much more here
+        const vtVec3 beside = vtSub(views[i].target, joined.target);
+        const float x = fabsf(vtDot(beside, camera.right)), y = fabsf(vtDot(beside, camera.up));
+        distance = fmaxf(distance, vtLength(vtSub(views[i].eye, views[i].target)) +
+                                       fmaxf(x / tangentX, y / tangentY) - vtDot(beside, camera.forward));
+    }
+    joined.eye = vtMulAdd(joined.target, -distance, camera.forward);
+    return joined;
+}
+
 vtView vtViewOfMesh(const vtMesh* mesh, float fovY, float aspect)
 {
     vtBorrowedMesh borrowed;

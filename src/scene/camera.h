@@ -24,6 +24,10 @@ typedef struct vtFrustum {
 vtCamera vtMakeViewCamera(const vtView* view);
 vtCamera vtMakeCamera(const vtFrame* frame);
 
+/// A view that shows all that these show, which look the same way (vtViewOfScene of a scene at several
+/// times).
+vtView vtJoinViews(const vtView* views, int count, float aspect);
+
 /// Fails with vt_errorArgument and a sentence for matrices that are none of a camera.
 vtResult vtCheckMatrices(const vtFrame* frame, vtError* error);
 

@@ -5,7 +5,7 @@
 
 typedef struct Builder {
     char views[4096], accessors[4096];
-    uint8_t bin[16384];
+    uint8_t bin[65536];
     size_t binSize;
     int viewCount, accessorCount;
 } Builder;

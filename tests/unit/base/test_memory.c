@@ -243,14 +243,20 @@ static const char json[] =
     "{\"mesh\":1,\"translation\":[0,0,-3]},{\"camera\":0,\"translation\":[0,0,9]}],"
     "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":0.1}}],"
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2,\"material\":0}]},"
-    "{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,\"material\":1}]}],"
+    "{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,\"material\":1,"
+    "\"targets\":[{\"POSITION\":0}]}],\"weights\":[1]}],"
     "\"materials\":[{\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}},"
     "\"extras\":{\"a\":[[1,2,[3]],{\"b\":[4]}]}},"
     "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
     "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"wood.png\"}],"
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
     "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"
-    "{\"bufferView\":2,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}],"
+    "{\"bufferView\":2,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"},"
+    "{\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\"},"
+    "{\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}],"
+    "\"animations\":[{\"name\":\"an animation whose name is longer than fits a short text\",\"samplers\":["
+    "{\"input\":3,\"output\":4},{\"input\":3,\"output\":3}],\"channels\":[{\"sampler\":0,\"target\":"
+    "{\"node\":1,\"path\":\"translation\"}},{\"sampler\":1,\"target\":{\"node\":1,\"path\":\"weights\"}}]}],"
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":32},"
     "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":24}],"
     "\"buffers\":[{\"byteLength\":104,\"uri\":\"numbers.bin\"}]}";
@@ -260,10 +266,16 @@ static vtResult loadModel(const char* text, vtError* error)
     vtScene scene;
     const vtModelDef def = {
         .bytes = text, .size = strlen(text), .name = "x.gltf", .directory = "d", .readFile = readFile};
-    const vtResult result = vtLoadScene(&def, &scene, error);
+    vtModel* opened;
+    vtResult result = vtOpenModel(&def, &opened, &scene, error);
+    assert_true((result == vt_ok) == (opened != NULL));
     assert_true(result != vt_ok ||
                 (scene.objectCount == 2 && scene.imageCount == 1 && scene.cameraCount == 1));
     assert_true(result == vt_ok || (scene.meshes == NULL && scene.meshCount == 0));
+    if (result == vt_ok) {
+        result = vtModel_SetTime(opened, 0, 1.0, NULL, &scene, error);
+    }
+    vtCloseModel(opened);
     vtDestroyScene(&scene);
     return result;
 }

@@ -179,6 +179,15 @@ static void scenes(void** state)
     assert_missing(vtLoadScene(&def, &scene, &error), "vtLoadScene");
     def.size = 0;
     assert_refused(vtLoadScene(&def, &scene, &error), vt_errorFormat, "empty");
+    vtModel* model;
+    assert_missing(vtOpenModel(NULL, &model, &scene, &error), "vtOpenModel");
+    assert_missing(vtOpenModel(&def, NULL, &scene, &error), "vtOpenModel");
+    assert_missing(vtOpenModel(&def, &model, NULL, &error), "vtOpenModel");
+    assert_refused(vtOpenModel(&def, &model, &scene, &error), vt_errorFormat, "empty");
+    assert_missing(vtModel_SetTime(NULL, 0, 0.0, NULL, &scene, &error), "vtModel_SetTime");
+    assert_null(vtModel_Animation(NULL, 0));
+    assert_int_equal(vtScene_NextPlace(NULL, NULL).object, 0);
+    vtCloseModel(NULL);
 }
 
 /// Each field of a scene that names something else, or an array that is not there.

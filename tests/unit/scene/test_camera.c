@@ -1,6 +1,7 @@
 // Views, frusta, orbit; and the ranges of a frame.
 #include "base/math.h"
 #include "scene/camera.h"
+#include "scene/objects.h"
 #include "testing.h"
 
 static void frameIsOrthonormalAndLooksAtTheTarget(void** state)
@@ -137,6 +138,42 @@ static void defaultFrameIsValid(void** state)
     assert_int_equal(resolved.maxEvents, 8);
 }
 
+/// What two views show is shown by the one that they are joined to, and not much more.
+static void joinedViewsShowBoth(void** state)
+{
+    (void)state;
+    vtMesh mesh;
+    vtError error;
+    vtView views[2];
+    const vtMaterial glass = vtDefaultMaterial();
+    const float aspect = 1.5f;
+    vtScene scene;
+    assert_ok(vtCreateShape("cube", &mesh, &error), error);
+    assert_ok(vtCreateMeshScene(&mesh, &glass, &scene, &error), error);
+    views[0] = vtViewOfScene(&scene, 40.0f, aspect);
+    scene.objects[0].toWorld = (vtTransform){{{2, 0, 0, 7}, {0, 1, 0, -3}, {0, 0, 1, 5}}};
+    views[1] = vtViewOfScene(&scene, 40.0f, aspect);
+    const vtView joined = vtJoinViews(views, 2, aspect);
+    const vtCamera camera = vtMakeViewCamera(&joined);
+    const float tangent = tanf(20.0f * VT_PI / 180.0f);
+    const float half = scene.meshes[0].boundsMax.x;
+    float widest = 0.0f;
+    for (int i = 0; i < 16; ++i) {
+        const float x = i & 1 ? half : -half, y = i & 2 ? half : -half, z = i & 4 ? half : -half;
+        const vtVec3 p =
+            i < 8 ? (vtVec3){x, y, z} : vtTransformPoint(&scene.objects[0].toWorld, (vtVec3){x, y, z});
+        const vtVec3 offset = vtSub(p, joined.eye);
+        const float depth = vtDot(offset, camera.forward) * tangent;
+        const float across = fabsf(vtDot(offset, camera.right)) / (depth * aspect);
+        const float along = fabsf(vtDot(offset, camera.up)) / depth;
+        widest = fmaxf(widest, fmaxf(across, along));
+    }
+    assert_in_range(widest * 100.0f, 60, 90);
+    const vtView same = vtJoinViews(views, 1, aspect);
+    assert_near(same.eye.z, views[0].eye.z, 1e-5f);
+    vtDestroyScene(&scene);
+}
+
 static void framesOutOfRangeAreNamed(void** state)
 {
     (void)state;
@@ -189,6 +226,7 @@ int main(void)
         cmocka_unit_test(orbitKeepsTheDistanceAndStopsAtThePoles),
         cmocka_unit_test(defaultFrameIsValid),
         cmocka_unit_test(framesOutOfRangeAreNamed),
+        cmocka_unit_test(joinedViewsShowBoth),
         cmocka_unit_test(everyTechniqueCanBeFound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
