@@ -341,7 +341,8 @@ typedef struct vtObject {
 
 typedef enum vtLightKind { vt_lightPoint = 0, vt_lightSpot, vt_lightDirectional } vtLightKind;
 
-/// A light without size (KHR_lights_punctual): it lights opaque things, and is seen in glass as a highlight.
+/// A light without size (KHR_lights_punctual): it lights opaque things and the ground, with shadows, and
+/// is seen in glass as a highlight.
 typedef struct vtLight {
     vtLightKind kind;
     vtVec3 position;
@@ -517,8 +518,9 @@ VT_API void vtDestroyEnvironment(vtEnvironment* environment);
 
 /// A level plane, without end, that the scene stands on. It is seen from above, directly, through glass and
 /// in reflections, by techniques `exact` and `heightfield`. Light comes to it from the upper half of the
-/// environment and from a sun. It shows what the scene does to that light: shadows, and caustics, which are
-/// light that glass bends or reflects (docs/method.md, "The ground").
+/// environment, from a sun and from the scene's lights. It shows what the scene does to that light: shadows,
+/// and caustics, which are light that glass bends or reflects (docs/method.md, "The ground"). Sun and lights
+/// do the same to the scene's opaque things.
 typedef struct vtGround {
     /// World y, at or below the lowest point of the scene. NAN, the default: that point
     float height;

@@ -483,6 +483,8 @@ describe('objects', () => {
     refuses(render('sphere', '--ground', '--ground-color', '1,2,1'), ['its color is 2; it must be from 0 to 1']);
     refuses(render('sphere', '--sun', '1,1,1'), ['--sun says something of a ground; add --ground']);
     refuses(render('sphere', '--ground', '--shadow-softness', '3'), ['its shadow softness is 3; it must be from 0 to 1']);
+    const { error } = vitrine(['render', 'sphere', ...small, '-o', 'note.png', '-t', 'layered', '--ground']);
+    assert.match(error, /note: technique layered draws no ground, and no light or shadow of its sun; exact, heightfield and reference do/);
     refuses(render('sphere', '--search', 'rays'), ["--search is 'rays'; it must be steps or cells"]);
   });
 

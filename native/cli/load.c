@@ -411,6 +411,12 @@ static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError*
     } else if (!options->innerDistances) {
         printLooks(technique, scene);
         printGlass(technique, scene, &options->frame);
+        if (options->ground.isThere && !vtTechnique_Row(technique)->traces) {
+            fprintf(stderr,
+                    "vitrine: note: technique %s draws no ground, and no light or shadow of its sun; exact, "
+                    "heightfield and reference do\n",
+                    vtTechnique_Info(technique)->id);
+        }
     }
     return vtPrepareScene(scene, technique, NULL, error);
 }

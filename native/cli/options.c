@@ -136,9 +136,9 @@ static const Option table[] = {
     GROUND("ground-color", "R,G,B",
            "of a matt ground, linear, 0 to 1 each (none: what is seen of it is the environment)"),
     GROUND("sun", "X,Y,Z[,SIZE[,R,G,B]]",
-           "light on the ground from this direction; the sun's diameter in degrees, its irradiance in the "
-           "unit of "
-           "the environment's radiance times steradians (the environment's own; 0.53, 3,3,3)"),
+           "light from this direction on the ground and on opaque things, which cast shadows; the sun's "
+           "diameter in degrees, its irradiance in the unit of the environment's radiance times steradians "
+           "(the environment's own; 0.53, 3,3,3)"),
     GROUND("shadow-intensity", "N", "of what the scene does to the light on the ground (1), 0 to 1"),
     GROUND("shadow-softness", "N",
            "0: as the lights are wide, to 1: blurred over a tenth of the map (0), 0 to 1"),

@@ -74,3 +74,10 @@
 #define VT_GROUND_SIDE 512
 #define VT_GROUND_SAMPLES 4096
 #define VT_GROUND_BELOW 0.001
+
+// Light that glass bends onto opaque things (src/light/caustics.h): RGBA32UI texels, so many a row. The first: slots of the
+// table. Two a slot: object + 1 (0: free), triangle, sides of its lattice, number of its first sample; its window (low i
+// and j, width, height) or, of one side, the samples of its corners. Then two a sample, irradiance on either side of the
+// triangle (bits of floats). A triangle's slot is so many after its hash at most.
+#define VT_CAUSTIC_COLUMNS 1024
+#define VT_CAUSTIC_PROBES 32

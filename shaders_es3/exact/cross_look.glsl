@@ -4,14 +4,15 @@
 // looks, media, objects, optics and path.
 
 // Takes the path through; `isLast`: it has no event left. False where it ends, `status` says how.
-bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, int also, bool isLast, inout int status)
+bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeting met, bool isLast, inout int status)
 {
     vec3 I = p.direction;
-    int object = hit.object;
+    int object = hit.object, also = met.also;
     bool leaving = dot(look.G, I) > 0.0;
     vec3 N = leaving ? -look.N : look.N, G = leaving ? -look.G : look.G;
+    Start from = Start(p.position, I, media, object, met.triangle, false, false, false);
     vec3 covered = p.transmittance * look.base.a, beside = p.transmittance - covered;
-    p.light += covered * sentLight(look, dot(N, I) < 0.0 ? N : G, I, p.position);
+    p.light += covered * sentLight(look, dot(N, I) < 0.0 ? N : G, I, from, met.at);
     vec3 share = covered * look.passes;
 
     // What is on either side.

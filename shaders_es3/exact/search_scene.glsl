@@ -19,6 +19,8 @@ struct Start {
     bool onlyOpaque;
 };
 
+const Start NO_START = Start(vec3(0.0), vec3(1.0, 0.0, 0.0), AIR, -1, VT_NO_TRIANGLE, false, false, false);
+
 // Surfaces nearer to one another lie at one place.
 float samePlace()
 {

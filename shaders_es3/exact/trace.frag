@@ -16,6 +16,12 @@ const int MOST_SURFACES = 256;
 struct End {
     int status;
     Meeting meeting;
+#ifdef WITH_SHADE
+    Media media; // that it ends in
+#endif
+#ifdef WITH_PHOTONS
+    bool isBent; // it has come through something
+#endif
 };
 
 // Light that left a path is followed always where its share is at least this; less of it with a chance, where chance
@@ -23,12 +29,19 @@ struct End {
 const float SURE_BRANCH = 0.05;
 const int MOST_PATHS = 64; // of a pixel, where chance chooses: they end long before
 
+#ifdef WITH_SHADE
+#define IN_AIR , AIR
+#elif defined(WITH_PHOTONS) // never both
+#define IN_AIR , false
+#else
+#define IN_AIR
+#endif
 const Meeting NO_MEETING = Meeting(NOWHERE, VT_NO_TRIANGLE, vec2(0.0), -1, -1);
 
 // isFresh: the path begins at the eye. isDirect: glass does not count, only what is opaque.
 End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
 {
-    End end = End(VT_PATH_LOST, NO_MEETING);
+    End end = End(VT_PATH_LOST, NO_MEETING IN_AIR);
 #ifdef WITH_DEPTH
     float depth = 0.0;
 #endif
@@ -52,6 +65,9 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
 #else
         bool more = isMet && !isOpaque && !isLast;
 #endif
+#ifdef WITH_PHOTONS
+        more = more && p.events < 1000; // a shade ray ends at the first surface
+#endif
 #ifdef WITH_DEPTH
         depth = isMet && start.isEye ? met.distance * (mat3(u_worldToCamera) * p.direction).z : depth;
 #endif
@@ -59,6 +75,12 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
         end.meeting.triangle = isOpaque ? met.triangle : end.meeting.triangle;
         end.meeting.at = isOpaque ? met.at : end.meeting.at;
         end.meeting.object = isOpaque ? met.object : end.meeting.object;
+#ifdef WITH_PHOTONS
+        end.isBent = surface > 0;
+#endif
+#endif
+#ifdef WITH_SHADE
+        end.media = start.media;
 #endif
         if (isOpaque) {
             absorb(p, start.media, met.distance);
@@ -78,8 +100,19 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
             const float width = 0.0; // there are no pictures
 #endif
             Look look = lookAt(met, hit, width);
-            more = crossLook(p, media, look, hit, met.also, isLast, end.status);
+#ifdef WITH_PHOTONS
+            end.isBent = surface > 0;
+            vec3 arriving = look.base.a * p.transmittance;
+#endif
+            more = crossLook(p, media, look, hit, met, isLast, end.status);
             more = more && (p.events < u_search.w || media == AIR);
+#ifdef WITH_PHOTONS
+            bool isLanding = end.status == VT_PATH_OPAQUE;
+            p.transmittance = mix(p.transmittance, arriving, bvec3(isLanding));
+            end.meeting.triangle = isLanding ? met.triangle : end.meeting.triangle;
+            end.meeting.at = isLanding ? met.at : end.meeting.at;
+            end.meeting.object = isLanding ? met.object : end.meeting.object;
+#endif
             bool isBehind = met.object < u_scene.x && dot(p.direction, look.G) * dot(start.direction, look.G) > 0.0;
             start = Start(p.position, p.direction, media, met.object, met.triangle, false, isBehind, isDirect);
         }
@@ -109,14 +142,18 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
 }
 
 // Light that a ray brings from its end; what is opaque there, if anything.
-vec3 lightAlong(Path p, Meeting opaque)
+vec3 lightAlong(Path p, End end)
 {
     float width = 0.0; // of what the pixel covers: only pictures ask for it
+    Meeting opaque = end.meeting;
 #ifdef WITH_FOOTPRINT
     width = footprintWidth(p.footprint.direction);
 #endif
 #ifdef WITH_ROUGH
     vec3 light = p.lobe.z > 0.0 ? specularLight(p.direction, lobeRoughness(p.lobe), width) : surroundings(p.position, p.direction, width);
+#ifdef WITH_SHADE
+    light += p.lobe.z > 0.0 ? u_sun[3].rgb * sunGlare(u_sun[2], p.direction, lobeRoughness(p.lobe)) : vec3(0.0);
+#endif
 #else
     vec3 light = surroundings(p.position, p.direction, width); // a lost path sees it, too
 #endif
@@ -134,6 +171,10 @@ vec3 lightAlong(Path p, Meeting opaque)
         {
             at = opaqueSurface(opaque.object, RecordHit(0.0, opaque.triangle, opaque.at));
         }
+#endif
+#ifdef WITH_SHADE
+        at.from = Start(p.position, p.direction, end.media, opaque.object, opaque.triangle, false, false, false);
+        at.corner = opaque.at;
 #endif
 #ifdef WITH_FOOTPRINT
         light = shadeOpaque(opaque.object, at, p.direction, p.footprint);
@@ -173,7 +214,7 @@ vec3 lightOfPixel(out int status)
     End end = followPath(p, AIR, true, false);
     o_path = uvec4(floatBitsToUint(p.direction), pathState(p, end.status));
     status = end.status;
-    return p.transmittance * lightAlong(p, end.meeting);
+    return p.transmittance * lightAlong(p, end);
 #else
     Media media = AIR;
     vec3 light = vec3(0.0);
@@ -190,7 +231,7 @@ vec3 lightOfPixel(out int status)
     vec3 firstPosition = vec3(0.0), firstDirection = vec3(1.0, 0.0, 0.0), firstLight = vec3(0.0);
     for (int i = 0; i < MOST_PATHS; ++i) {
         bool isOwn = i == 0;
-        End end = End(VT_PATH_EXITED, NO_MEETING);
+        End end = End(VT_PATH_EXITED, NO_MEETING IN_AIR);
 #ifndef WITH_OPAQUE // a direct ray meets nothing
         if (!isDirect)
 #endif
@@ -201,7 +242,7 @@ vec3 lightOfPixel(out int status)
         p.transmittance *= end.status == VT_PATH_OPAQUE ? 0.0 : 1.0; // all its light is there
         light += p.light;
 #endif
-        light += p.transmittance * lightAlong(p, end.meeting);
+        light += p.transmittance * lightAlong(p, end);
         if (isOwn) {
             status = end.status;
             path = uvec4(floatBitsToUint(p.direction), pathState(p, status));

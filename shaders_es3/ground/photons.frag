@@ -7,6 +7,8 @@ uniform vec4 u_ground;             // height; the map's corner, x and z; its sid
 uniform vec4 u_groundRays;         // the list; 1: photons; diagonal of the scene; rays along a side of the target
 
 uniform vec4 u_groundBox[2];       // that photons go through, world
+uniform vec4 u_groundLight[2];     // place of a light, 1; or the direction towards it, 2; 0: it is the list. Of one that has
+                                   // a place: photons go about this axis, in an angle of that cosine
 
 layout(location = 2) out uvec4 o_third;
 
@@ -30,6 +32,14 @@ uint sampleOf(uvec2 pixel, uint across)
     return order * part + scramble(pixel.x + pixel.y * across) % part;
 }
 
+// The directions of a cone, as evenly as the square.
+vec3 inCone(vec2 place)
+{
+    vec3 axis = u_groundLight[1].xyz, right = normalize(cross(axis, abs(axis.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
+    float cosine = 1.0 - place.x * (1.0 - u_groundLight[1].w), angle = 6.2831853 * place.y;
+    return sqrt(max(1.0 - cosine * cosine, 0.0)) * (cos(angle) * right + sin(angle) * cross(axis, right)) + cosine * axis;
+}
+
 // Where a photon comes down (bits of floats) and what is left of its light; 0: nothing.
 uvec4 landing(Path p, int status)
 {
@@ -40,6 +50,18 @@ uvec4 landing(Path p, int status)
     return uvec4(floatBitsToUint(at), packUnorm2x16(left.rg), packUnorm2x16(vec2(left.b, 0.0)));
 }
 
+#if defined(WITH_OPAQUE) && !defined(ONLY_HEIGHTS)
+// The same of one that comes down on something opaque: triangle, place on it, light; object, and whether it comes from
+// behind.
+uvec4 landingOnOpaque(Path p, Meeting met)
+{
+    vec3 area = normalToWorld(readTransform(met.object), cornersArea(recordCorners(met.triangle)));
+    uint bits = 4u | (dot(area, p.direction) > 0.0 ? 8u : 0u) | uint(met.object) << 4u;
+    return uvec4(met.triangle, packUnorm2x16(met.at), packUnorm2x16(p.transmittance.rg),
+                 packUnorm2x16(vec2(p.transmittance.b, 0.0)) | bits << 16u);
+}
+#endif
+
 void main()
 {
 #ifdef ONE_OBJECT
@@ -48,19 +70,21 @@ void main()
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     int index = int(sampleOf(pixel, uint(u_groundRays.w)));
     ivec2 texel = ivec2(index % 64, index / 64 + 64 * int(u_groundRays.x));
-    vec3 light = uintBitsToFloat(readTexel(u_groundLights, texel, textureSize(u_groundLights, 0)).xyz);
-    bool isPhoton = u_groundRays.y != 0.0;
+    vec3 listed = uintBitsToFloat(readTexel(u_groundLights, texel, textureSize(u_groundLights, 0)).xyz);
+    bool isNear = u_groundLight[0].w == 1.0, isPhoton = u_groundRays.y != 0.0;
     // A lattice rather than a grid: light that spreads would show the grid's lines.
     vec2 place = vec2(floor(gl_FragCoord.x) + fract(0.61803399 * float(pixel.y)), gl_FragCoord.y) / u_groundRays.w;
 
     vec3 ground = vec3(u_ground.y + place.x * u_ground.w, u_ground.x, u_ground.z + place.y * u_ground.w);
+    vec3 light = isNear ? isPhoton ? -inCone(place.yx) : normalize(u_groundLight[0].xyz - ground)
+                        : mix(listed, u_groundLight[0].xyz, step(1.0, u_groundLight[0].w));
     ground -= VT_GROUND_BELOW * u_groundRays.z / light.y * light;
     vec3 right = normalize(cross(light, abs(light.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
     vec3 up = cross(light, right), extent = 0.5 * (u_groundBox[1].xyz - u_groundBox[0].xyz);
     vec2 across = vec2(dot(abs(right), extent), dot(abs(up), extent)) * (2.0 * place - 1.0);
     vec3 above = 0.5 * (u_groundBox[0].xyz + u_groundBox[1].xyz) + across.x * right + across.y * up + 1.5 * u_groundRays.z * light;
 
-    vec3 start = isPhoton ? above : ground;
+    vec3 start = isPhoton ? (isNear ? u_groundLight[0].xyz : above) : ground;
     Path p = startPath(start, isPhoton ? -light : light);
     p.choice = -1.0; // the stronger part
     p.events = isPhoton ? 0 : 1000; // of a shade ray the first event is one too many
@@ -71,10 +95,21 @@ void main()
     for (int i = 0; i < 3; ++i) { // the path itself, what its first surface reflects, what left it later
         End end = followPath(p, media, false, false);
         uvec4 landed = landing(p, end.status);
+#if defined(WITH_OPAQUE) && !defined(ONLY_HEIGHTS)
+        bool isOnOpaque = isPhoton && end.status == VT_PATH_OPAQUE && end.meeting.triangle != VT_NO_TRIANGLE;
+#ifdef WITH_HEIGHTS
+        isOnOpaque = isOnOpaque && !isRelief(end.meeting.object);
+#endif
+        if (isOnOpaque && (i > 0 || end.isBent)) {
+            landed = landingOnOpaque(p, end.meeting);
+        }
+#endif
         bool isOwn = i == 0;
         if (isOwn) {
             // Bits: it is out, wherever it goes; it has met something.
-            landed.w |= (end.status == VT_PATH_EXITED ? 0x10000u : 0u) | (p.position != start ? 0x20000u : 0u);
+            bool isBeyond = isNear && !isPhoton && distance(p.position, start) > distance(u_groundLight[0].xyz, start);
+            landed.w |= (end.status == VT_PATH_EXITED || isBeyond ? 0x10000u : 0u);
+            landed.w |= p.position != start && !isBeyond ? 0x20000u : 0u;
             own = landed;
             firstPosition = p.firstPosition;
             firstDirection = p.firstDirection;

@@ -236,8 +236,49 @@ vec3 lookReflectance(Look look, float cosine, float exact, float ior, bool fromI
 
 // ------------------------------------------------------------------------------------------------- light
 
-// Radiance towards V of the scene's lights at a point: of a matt surface of that colour, and of a glossy one.
-vec3 lightOfLights(vec3 position, vec3 N, vec3 V, vec3 matt, vec3 F0, vec3 F90, float roughness)
+#ifdef WITH_SHADE
+vec3 passedByLook(Meeting met, SurfaceHit hit, vec3 L, inout Media media)
+{
+    Look look = lookAt(met, hit, 0.0);
+    vec3 F = vec3(0.0);
+    bool isInterface = true;
+    if ((look.flags & VT_LOOK_THIN) == 0u && met.object < u_scene.x) {
+        uint id = mediumOf(met.object);
+        media = (dot(look.G, L) > 0.0) != holds(media, id) ? toggle(media, id) : media;
+        uint from = topOf(media);
+        media = toggle(media, id);
+        media = met.also >= 0 ? toggle(media, mediumOf(met.also)) : media;
+        isInterface = from != topOf(media);
+        look.ior = glassOf(from).x / glassOf(topOf(media)).x;
+    }
+    float ior = max(look.ior, 1.0 / look.ior), cosine = abs(dot(look.N, L));
+    if (isInterface && u_scene.z != 0) {
+        F = lookReflectance(look, cosine, fresnel(cosine, 1.0 / ior), ior, false);
+    }
+    vec3 through = look.passes * (isInterface ? (1.0 - F) * look.base.rgb : vec3(1.0));
+    return vec3(1.0 - look.base.a) + look.base.a * through;
+}
+#endif
+
+// Light of one of the scene's lights at a place, on what faces it, if nothing is in the way; L: the direction towards it.
+vec3 lightSent(int i, vec3 position, out vec3 L, out float distance)
+{
+    vec4 place = uintBitsToFloat(materialTexel(uint(1 + 3 * i))), along = uintBitsToFloat(materialTexel(uint(2 + 3 * i)));
+    vec4 color = uintBitsToFloat(materialTexel(uint(3 + 3 * i)));
+    // place.w: range; below 0: the light is directional. along.w, color.w: cosines of a spot's cones, inner above outer.
+    bool isFar = place.w < 0.0;
+    vec3 to = mix(place.xyz - position, -along.xyz, bvec3(isFar));
+    float far = max(length(to), 1e-6), near = place.w > 0.0 ? far / place.w : 0.0;
+    L = to / far;
+    distance = isFar ? NOWHERE : far;
+    float fade = isFar ? 1.0 : clamp(1.0 - near * near * near * near, 0.0, 1.0) / (far * far);
+    float cone = clamp((dot(-L, along.xyz) - color.w) / max(along.w - color.w, 1e-4), 0.0, 1.0);
+    return color.rgb * (fade * cone * cone);
+}
+
+// Radiance towards V of the scene's lights at a point: of a matt surface of that colour, and of a glossy one. G: of the
+// triangle, on V's side.
+vec3 lightOfLights(Start from, vec3 N, vec3 G, vec3 V, vec3 matt, vec3 F0, vec3 F90, float roughness)
 {
     uvec4 head = materialTexel(0u);
     float r = max(roughness, 0.0525), a = r * r, nv = max(dot(N, V), 1e-3);
@@ -246,36 +287,37 @@ vec3 lightOfLights(vec3 position, vec3 N, vec3 V, vec3 matt, vec3 F0, vec3 F90, 
         if (i >= int(head.x)) {
             break;
         }
-        vec4 place = uintBitsToFloat(materialTexel(uint(1 + 3 * i))), along = uintBitsToFloat(materialTexel(uint(2 + 3 * i)));
-        vec4 color = uintBitsToFloat(materialTexel(uint(3 + 3 * i)));
-        // place.w: range; below 0: the light is directional. along.w, color.w: cosines of a spot's cones, inner above outer.
-        vec3 to = place.w < 0.0 ? -along.xyz : place.xyz - position;
-        float distance = max(length(to), 1e-6);
-        vec3 L = to / distance;
-        float near = place.w > 0.0 ? distance / place.w : 0.0;
-        float fade = place.w < 0.0 ? 1.0 : clamp(1.0 - near * near * near * near, 0.0, 1.0) / (distance * distance);
-        float cone = clamp((dot(-L, along.xyz) - color.w) / max(along.w - color.w, 1e-4), 0.0, 1.0);
+        float distance;
+        vec3 L, sent = lightSent(i, from.position, L, distance);
         float nl = max(dot(N, L), 0.0);
         vec3 H = normalize(L + V);
         float nh = max(dot(N, H), 0.0), vh = max(dot(V, H), 0.0);
         float d = nh * nh * (a * a - 1.0) + 1.0;
         float D = a * a / (3.14159265 * d * d);
-        float G = 0.5 / (nl * sqrt(nv * nv * (1.0 - a * a) + a * a) + nv * sqrt(nl * nl * (1.0 - a * a) + a * a) + 1e-6);
+        float shadowing = 0.5 / (nl * sqrt(nv * nv * (1.0 - a * a) + a * a) + nv * sqrt(nl * nl * (1.0 - a * a) + a * a) + 1e-6);
         vec3 F = F0 + (F90 - F0) * pow(1.0 - vh, 5.0);
-        sum += color.rgb * (fade * cone * cone * nl) * (matt / 3.14159265 + F * (D * G));
+        vec3 light = sent * nl * (matt / 3.14159265 + F * (D * shadowing));
+#ifdef WITH_SHADE
+        light *= step(1e-4, dot(G, L));
+        if (strongest(light) > 1e-5) {
+            light *= lightArriving(from, L, distance);
+        }
+#endif
+        sum += light;
     }
     return sum;
 }
 
 // Radiance that the surface sends against the direction I, but for what it reflects and lets pass as glass does: what is
-// matt, metal and light of its own, and lights seen in it. N: against I.
-vec3 sentLight(Look look, vec3 N, vec3 I, vec3 position)
+// matt, metal and light of its own, and lights seen in it. N: against I. `from`: where it is; `at`: weights of
+// its triangle's second and third corner.
+vec3 sentLight(Look look, vec3 N, vec3 I, Start from, vec2 at)
 {
     float cosine = -dot(N, I);
     float matt = (1.0 - look.metallic) * (1.0 - look.passes / max(1.0 - look.metallic, 1e-6));
     float glossy = look.metallic + matt;
     vec3 metal = look.metallic * look.base.rgb, dielectric = reflectedAhead(look, look.ior);
-    vec3 F0 = (metal + matt * dielectric) / max(glossy, 1e-6);
+    vec3 F0 = (metal + matt * dielectric) / max(glossy, 1e-6), G = dot(look.G, I) > 0.0 ? -look.G : look.G;
     float F90 = (look.metallic + matt * look.specular) / max(glossy, 1e-6);
     vec3 light = look.emissive;
     if (glossy > 0.0) {
@@ -285,8 +327,11 @@ vec3 sentLight(Look look, vec3 N, vec3 I, vec3 position)
             share = mix(share, filmReflectance(cosine, look.film, F0), look.film.x);
         }
         light += look.occlusion * (matt * look.base.rgb * diffuseLight(N) + glossy * specularLight(R, look.roughness, 0.0) * share);
+#ifdef WITH_SHADE
+        light += sunOn(from, at, dot(look.G, I) > 0.0, N, G, R, matt * look.base.rgb, glossy * share, look.roughness);
+#endif
     }
-    light += lightOfLights(position, N, -I, matt * look.base.rgb, metal + (matt + look.passes) * dielectric,
+    light += lightOfLights(from, N, G, -I, matt * look.base.rgb, metal + (matt + look.passes) * dielectric,
                            vec3(look.metallic + (matt + look.passes) * look.specular), look.roughness);
     // As it is, whatever the exposure.
     return (look.flags & VT_LOOK_UNLIT) != 0u ? look.base.rgb / u_optics.z : light;

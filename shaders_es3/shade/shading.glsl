@@ -76,6 +76,10 @@ struct OpaqueSurface {
     vec2 at;                 // texture coordinates
     vec3 color;
     float areaOfTexture, area; // of a part of the surface, in texture coordinates and in the world
+#ifdef WITH_SHADE
+    Start from;  // where rays towards lights start
+    vec2 corner; // weights of the triangle's second and third corner
+#endif
 #ifdef WITH_FOOTPRINT
     mat3 turn; // what a step along the surface does to the normal
 #endif
@@ -95,6 +99,9 @@ OpaqueSurface opaqueSurface(int object, RecordHit hit)
     }
     return OpaqueSurface(normalToWorld(transform, cornersNormal(corners, hit.at)), normalize(area), attributes.at,
                          attributes.color, attributes.area, 0.5 * length(area)
+#ifdef WITH_SHADE
+                         , NO_START, vec2(0.0)
+#endif
 #ifdef WITH_FOOTPRINT
                          , cornersTurn(transform, corners, hit.at)
 #endif
@@ -113,6 +120,9 @@ OpaqueSurface opaqueHeights(int object, uint triangle, vec3 position)
     // The whole picture, on a plane as steep as the surface is.
     float steep = abs(dot(hit.flatNormal, cross(transform.x.xyz, transform.y.xyz)));
     return OpaqueSurface(hit.normal, hit.flatNormal, vec2(at.x, 1.0 - at.y), vec3(1.0), 1.0, extent.x * extent.y / max(steep, 1e-6)
+#ifdef WITH_SHADE
+                         , NO_START, vec2(0.0)
+#endif
 #ifdef WITH_FOOTPRINT
                          , hit.turn
 #endif
@@ -157,6 +167,10 @@ vec3 shadeOpaque(int object, OpaqueSurface at, vec3 I, float footprint)
 #endif
     vec3 F0 = mix(vec3(0.04), base, metallic);
     vec3 diffuse = (1.0 - metallic) * base * diffuseLight(N);
-    vec3 specular = specularLight(normalize(I + 2.0 * cosine * N), roughness, width) * reflectedShare(F0, 1.0, roughness, cosine);
-    return diffuse + specular + objectNumbers(object, VT_OBJECT_EMISSIVE).xyz;
+    vec3 R = normalize(I + 2.0 * cosine * N), glossy = reflectedShare(F0, 1.0, roughness, cosine);
+    vec3 light = diffuse + specularLight(R, roughness, width) * glossy + objectNumbers(object, VT_OBJECT_EMISSIVE).xyz;
+#ifdef WITH_SHADE
+    light += sunOn(at.from, at.corner, side < 0.0, N, side * G, R, (1.0 - metallic) * base, glossy, roughness);
+#endif
+    return light;
 }

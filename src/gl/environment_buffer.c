@@ -108,15 +108,24 @@ vtResult vtEnvironmentBuffer_Set(vtEnvironmentBuffer* buffer, const vtGL* gl,
     return vt_ok;
 }
 
-vtResult vtEnvironmentBuffer_Light(vtEnvironmentBuffer* buffer, const vtGL* gl, vtError* error)
+void vtEnvironmentBuffer_FindSun(vtEnvironmentBuffer* buffer)
 {
-    if (buffer->lighting.name != 0) {
+    if (!buffer->isSunKnown) {
+        vtFindSun(&buffer->light, &buffer->sun);
+        buffer->isSunKnown = true;
+    }
+}
+
+vtResult vtEnvironmentBuffer_Light(vtEnvironmentBuffer* buffer, const vtGL* gl, bool sunless, vtError* error)
+{
+    if (buffer->lighting.name != 0 && buffer->isSunless == sunless) {
         return vtSucceed(error);
     }
     vtLighting lighting;
-    vtResult result = vtCreateLighting(&buffer->light, &lighting, error);
+    vtResult result = vtCreateLighting(&buffer->light, sunless ? &buffer->sun : NULL, &lighting, error);
     if (result == vt_ok) {
         result = vtLightingTexture_Upload(&buffer->lighting, gl, &lighting, error);
+        buffer->isSunless = result == vt_ok ? sunless : buffer->isSunless;
         vtDestroyLighting(&lighting);
     }
     return result;

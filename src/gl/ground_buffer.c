@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "gl/picture_texture.h"
 
 vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGroundMap* map, vtVec3 origin,
                             vtError* error)
@@ -29,14 +30,32 @@ vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGrou
     vtFree(texels);
     const float place[4] = {map->height - origin.y, map->lowX - origin.x, map->lowZ - origin.z,
                             1.0f / map->size};
-    const float radiance[4] = {map->radiance.x, map->radiance.y, map->radiance.z, map->matt ? 1.0f : 0.0f};
+    const vtVec3 color = map->color, light = map->irradiance;
+    const float matt[8] = {color.x, color.y, color.z, map->matt ? 1.0f : 0.0f,
+                           light.x, light.y, light.z, 0.0f};
     memcpy(buffer->place, place, sizeof place);
-    memcpy(buffer->radiance, radiance, sizeof radiance);
+    memcpy(buffer->matt, matt, sizeof matt);
     return vtSucceed(error);
+}
+
+vtResult vtGroundBuffer_SetCaustics(vtGroundBuffer* buffer, const vtGL* gl, const vtCausticMap* map,
+                                    vtError* error)
+{
+    const uint32_t none[4] = {0};
+    const int width = map->rows > 0 ? VT_CAUSTIC_COLUMNS : 1, height = map->rows > 0 ? (int)map->rows : 1;
+    const vtResult result = vtCheckTextureSize(gl, width, height, "caustics", error);
+    if (result == vt_ok) {
+        vtTexture_Resize(&buffer->caustics, gl, GL_RGBA32UI, width, height, 0);
+        vtTexture_Bind(&buffer->caustics, gl, vt_samplerNone);
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                          map->rows > 0 ? map->words : none);
+    }
+    return result;
 }
 
 void vtGroundBuffer_Destroy(vtGroundBuffer* buffer, const vtGL* gl)
 {
     vtTexture_Destroy(&buffer->map, gl);
+    vtTexture_Destroy(&buffer->caustics, gl);
     *buffer = (vtGroundBuffer){0};
 }

@@ -48,6 +48,7 @@ static const char* const samplerNames[vt_samplerCount] = {
     [vt_samplerBackground] = "u_background",
     [vt_samplerGround] = "u_groundMap",
     [vt_samplerGroundLights] = "u_groundLights",
+    [vt_samplerCaustics] = "u_caustics",
 };
 
 void vtProgramDef_SetFragment(vtProgramDef* def, const vtChunk* const* chunks, size_t count)

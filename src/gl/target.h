@@ -56,6 +56,7 @@ typedef enum vtSampler {
     vt_samplerBackground,
     vt_samplerGround,
     vt_samplerGroundLights,
+    vt_samplerCaustics,
     vt_samplerCount,
 } vtSampler;
 

@@ -87,7 +87,7 @@ static const vtGltfFeature features[] = {
         "index, attenuation, dispersion; a note counts other channels"),
     DECODED("KHR_draco_mesh_compression", LACKS_DRACO, "by libdraco, npm's draco3dgltf in a browser"),
     EXTENSION("KHR_lights_punctual", vt_gltfApproximated,
-              "opaque things are lit, glass has highlights; nothing casts shadows"),
+              "opaque things and the ground are lit, with shadows, and through glass; glass has highlights"),
     EXTENSION("KHR_materials_anisotropy", vt_gltfIgnored, ""),
     EXTENSION("KHR_materials_clearcoat", vt_gltfIgnored, ""),
     EXTENSION("KHR_materials_diffuse_transmission", vt_gltfIgnored, ""),

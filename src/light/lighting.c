@@ -39,8 +39,9 @@ static float shareOfRow(int row, int count)
 
 // -------------------------------------------------------------------------------------- the environment
 
-/// Mean over a texel: of every pixel of pictures up to 4096 across, of 2 x 2 directions else.
-static vtVec3 sampleTexel(const vtEnvironment* environment, int column, int row)
+/// Mean over a texel, without the sun: of every pixel of pictures up to 4096 across, of 2 x 2 directions
+/// else.
+static vtVec3 sampleTexel(const vtEnvironment* environment, const vtSun* sun, int column, int row)
 {
     const bool isLarge = environment->kind == vt_environmentImage && environment->width >= 2 * side;
     const int count = isLarge ? (int)fminf((float)(environment->width / side), 16.0f) : 2;
@@ -48,22 +49,27 @@ static vtVec3 sampleTexel(const vtEnvironment* environment, int column, int row)
     for (int i = 0; i < count * count; ++i) {
         const float u = ((float)column + ((float)(i % count) + 0.5f) / (float)count) / (float)side;
         const float t = ((float)row + ((float)(i / count) + 0.5f) / (float)count) / (float)rows;
+        const vtVec3 direction = vtEnvironmentDirection(u, t);
+        vtVec3 light;
         if (isLarge) {
             const size_t x = (size_t)(u * (float)environment->width);
             const size_t y = (size_t)(t * (float)environment->height);
-            sum = vtAdd(sum, vtMakeVec3(environment->pixels + 3 * (y * (size_t)environment->width + x)));
+            light = vtMakeVec3(environment->pixels + 3 * (y * (size_t)environment->width + x));
+            light = sun != NULL && vtSun_Holds(sun, direction, light) ? (vtVec3){0.0f, 0.0f, 0.0f} : light;
         } else {
-            sum = vtAdd(sum, vtEnvironment_Sample(environment, vtEnvironmentDirection(u, t)));
+            light = sun != NULL ? vtSampleWithoutSun(environment, sun, direction)
+                                : vtEnvironment_Sample(environment, direction);
         }
+        sum = vtAdd(sum, light);
     }
     return vtScale(sum, 1.0f / (float)(count * count));
 }
 
-static void fillRipmap(const vtEnvironment* environment, vtVec3* rip)
+static void fillRipmap(const vtEnvironment* environment, const vtSun* sun, vtVec3* rip)
 {
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < side; ++column) {
-            rip[row * stride + column] = sampleTexel(environment, column, row);
+            rip[row * stride + column] = sampleTexel(environment, sun, column, row);
         }
     }
     for (int across = 1; side >> across > 0; ++across) {
@@ -289,7 +295,8 @@ vtVec3 vtLighting_Specular(const vtLighting* lighting, vtVec3 direction, float r
 
 // ------------------------------------------------------------------------------------------------- both
 
-vtResult vtCreateLighting(const vtEnvironment* environment, vtLighting* lighting, vtError* error)
+vtResult vtCreateLighting(const vtEnvironment* environment, const vtSun* without, vtLighting* lighting,
+                          vtError* error)
 {
     assert(environment != NULL && lighting != NULL);
     *lighting = (vtLighting){.environment = environment};
@@ -300,7 +307,7 @@ vtResult vtCreateLighting(const vtEnvironment* environment, vtLighting* lighting
         vtDestroyLighting(lighting);
         return vtFail(error, vt_errorMemory, "lighting: out of memory");
     }
-    fillRipmap(environment, rip);
+    fillRipmap(environment, without, rip);
     projectIrradiance(rip, lighting->irradiance);
     for (int level = 0; level < VT_LIGHTING_LEVELS; ++level) {
         blurLevel(rip, level, lighting->specular);

@@ -2,7 +2,7 @@
 // shaders_es3/shade/lighting.glsl, which has the numbers from src/gl/lighting_texture.h.
 #pragma once
 
-#include "vitrine.h"
+#include "light/sun.h"
 
 // Equirectangular pictures of the environment blurred for five roughnesses, one below the other. Level i is
 // max(VT_LIGHTING_SIDE >> i, VT_LIGHTING_LEAST) wide, half as high, starts at row
@@ -19,8 +19,10 @@ typedef struct vtLighting {
     vtVec3* specular; ///< VT_LIGHTING_SIDE squared, the levels
 } vtLighting;
 
-/// Some tens of milliseconds. Fails with vt_errorMemory; then *lighting is zeroed.
-vtResult vtCreateLighting(const vtEnvironment* environment, vtLighting* lighting, vtError* error);
+/// Some tens of milliseconds. `without`: a sun that is left out of diffuse and blurred light, since it is a
+/// light of its own; NULL: none. Fails with vt_errorMemory; then *lighting is zeroed.
+vtResult vtCreateLighting(const vtEnvironment* environment, const vtSun* without, vtLighting* lighting,
+                          vtError* error);
 void vtDestroyLighting(vtLighting* lighting);
 
 /// Radiance of a matt white surface (irradiance over pi) with that unit normal.

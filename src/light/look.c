@@ -305,9 +305,35 @@ static vtVec3 reflectedShare(vtVec3 F0, float F90, float roughness, float cosine
                     fmaxf(F0.z * scale + bias, 0.0f)};
 }
 
+static bool isBright(vtVec3 light)
+{
+    return fmaxf(light.x, fmaxf(light.y, light.z)) > 1e-5f;
+}
+
+/// Of light from the direction L, which a surface would send if nothing were in its way. G: of the triangle,
+/// on the viewer's side.
+static vtVec3 withShadows(const vtShadows* shadows, vtVec3 G, vtVec3 L, float distance, vtVec3 light)
+{
+    if (shadows == NULL || !isBright(light)) {
+        return light;
+    }
+    return vtDot(G, L) < 1e-4f ? (vtVec3){0.0f, 0.0f, 0.0f}
+                               : vtMultiply(light, shadows->arriving(shadows, L, distance));
+}
+
+/// Radiance that it sends of the sun's light. R: mirrored direction of sight; `glossy`: share about it.
+static vtVec3 lightOfSun(const vtSun* sun, const vtShadows* shadows, vtVec3 N, vtVec3 G, vtVec3 R,
+                         vtVec3 matt, vtVec3 glossy, float roughness)
+{
+    const vtVec3 L = shadows->towardsSun;
+    const vtVec3 sent =
+        vtMulAdd(vtScale(matt, fmaxf(vtDot(N, L), 0.0f) / VT_PI), vtSun_Glare(sun, R, roughness), glossy);
+    return withShadows(shadows, G, L, INFINITY, vtMultiply(sun->irradiance, sent));
+}
+
 /// Radiance towards V of a light at a point: of a matt surface of that colour, and of a glossy one.
-static vtVec3 lightOfLight(const vtLight* light, vtVec3 position, vtVec3 N, vtVec3 V, vtVec3 matt, vtVec3 F0,
-                           float F90, float roughness)
+static vtVec3 lightOfLight(const vtLight* light, const vtShadows* shadows, vtVec3 position, vtVec3 N,
+                           vtVec3 G, vtVec3 V, vtVec3 matt, vtVec3 F0, float F90, float roughness)
 {
     const float r = fmaxf(roughness, 0.0525f), a = r * r, nv = fmaxf(vtDot(N, V), 1e-3f);
     const bool directional = light->kind == vt_lightDirectional;
@@ -326,15 +352,16 @@ static vtVec3 lightOfLight(const vtLight* light, vtVec3 position, vtVec3 N, vtVe
     const vtVec3 H = vtNormalize(vtAdd(L, V));
     const float nh = fmaxf(vtDot(N, H), 0.0f), vh = fmaxf(vtDot(V, H), 0.0f);
     const float d = nh * nh * (a * a - 1.0f) + 1.0f, D = a * a / (VT_PI * d * d);
-    const float G = 0.5f / (nl * sqrtf(nv * nv * (1.0f - a * a) + a * a) +
-                            nv * sqrtf(nl * nl * (1.0f - a * a) + a * a) + 1e-6f);
+    const float shadowing = 0.5f / (nl * sqrtf(nv * nv * (1.0f - a * a) + a * a) +
+                                    nv * sqrtf(nl * nl * (1.0f - a * a) + a * a) + 1e-6f);
     const vtVec3 F = mix(F0, grey(F90), powf(1.0f - vh, 5.0f));
-    const vtVec3 sent = vtMulAdd(vtScale(matt, 1.0f / VT_PI), D * G, F);
-    return vtScale(vtMultiply(light->color, sent), fade * cone * cone * nl);
+    const vtVec3 sent = vtMulAdd(vtScale(matt, 1.0f / VT_PI), D * shadowing, F);
+    return withShadows(shadows, G, L, directional ? INFINITY : distance,
+                       vtScale(vtMultiply(light->color, sent), fade * cone * cone * nl));
 }
 
-vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, vtVec3 N, vtVec3 I,
-                        vtVec3 position, float exposure)
+vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, const vtShadows* shadows,
+                        vtVec3 N, vtVec3 I, vtVec3 position, float exposure)
 {
     if (look->unlit) { // as it is, whatever the exposure
         return vtScale(look->base, 1.0f / exposure);
@@ -343,6 +370,7 @@ vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, 
     const float matt = (1.0f - look->metallic) * (1.0f - look->passes / fmaxf(1.0f - look->metallic, 1e-6f));
     const float glossy = look->metallic + matt;
     const vtVec3 metal = vtScale(look->base, look->metallic), dielectric = reflectedAhead(look, look->ior);
+    const vtVec3 G = vtScale(look->G, vtDot(look->G, I) > 0.0f ? -1.0f : 1.0f);
     vtVec3 light = look->emissive;
     if (glossy > 0.0f) {
         const vtVec3 F0 = vtScale(vtMulAdd(metal, matt, dielectric), 1.0f / glossy);
@@ -357,12 +385,21 @@ vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, 
         const vtVec3 specular = vtScale(
             vtMultiply(vtLighting_Specular(illumination->lighting, R, look->roughness), share), glossy);
         light = vtMulAdd(light, look->occlusion, vtAdd(diffuse, specular));
+        if (shadows != NULL && illumination->sun != NULL) {
+            light = vtAdd(light, lightOfSun(illumination->sun, shadows, N, G, R, vtScale(look->base, matt),
+                                            vtScale(share, glossy), look->roughness));
+        }
+    }
+    if (shadows != NULL) {
+        const vtVec3 color = vtScale(look->base, matt / VT_PI);
+        light = vtAdd(light, vtMultiply(color, shadows->gathered));
     }
     const float smooth = matt + look->passes;
     for (uint32_t i = 0; i < illumination->lightCount && i < VT_MOST_LIGHTS; ++i) {
-        light = vtAdd(light, lightOfLight(&illumination->lights[i], position, N, vtScale(I, -1.0f),
-                                          vtScale(look->base, matt), vtMulAdd(metal, smooth, dielectric),
-                                          look->metallic + smooth * look->specular, look->roughness));
+        light =
+            vtAdd(light, lightOfLight(&illumination->lights[i], shadows, position, N, G, vtScale(I, -1.0f),
+                                      vtScale(look->base, matt), vtMulAdd(metal, smooth, dielectric),
+                                      look->metallic + smooth * look->specular, look->roughness));
     }
     return light;
 }

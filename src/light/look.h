@@ -27,7 +27,16 @@ typedef struct vtIllumination {
     const vtLighting* lighting; ///< of the environment
     const vtLight* lights;
     uint32_t lightCount; ///< those beyond VT_MOST_LIGHTS count for nothing
+    const vtSun* sun;    ///< that the lighting is without; NULL: there is none
 } vtIllumination;
+
+/// What is between a point and lights: who looks for it has this as his first member.
+typedef struct vtShadows {
+    /// Share of a light that comes from the unit direction, from so far away (INFINITY: of the sun).
+    vtVec3 (*arriving)(const struct vtShadows* shadows, vtVec3 direction, float distance);
+    vtVec3 towardsSun; ///< a point of its disc
+    vtVec3 gathered;   ///< irradiance by photons
+} vtShadows;
 
 /// At the point of `triangle` with weights u and v of its second and third corner. Pictures are read at full
 /// size; the shader reads them averaged over a pixel. `ior`: of the object's glass.
@@ -39,7 +48,8 @@ vtLook vtLookAt(const vtScene* scene, const vtPlacedObject* object, uint32_t tri
 vtVec3 vtLook_Reflectance(const vtLook* look, float cosine, float exact, float ior, bool fromInside);
 
 /// Radiance that the surface sends against the unit direction I, but for what it reflects and lets pass as
-/// glass does: what is matt, metal and light of its own, and lights seen in it. N: unit, against I. Nothing
-/// casts shadows. `exposure`: the factor that the picture will be multiplied by, which what is unlit evades.
-vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, vtVec3 N, vtVec3 I,
-                        vtVec3 position, float exposure);
+/// glass does: what is matt, metal and light of its own, and lights seen in it. N: unit, against I.
+/// `shadows`: NULL, nothing casts any, and there is no sun. `exposure`: the factor that the picture will be
+/// multiplied by, which what is unlit evades.
+vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, const vtShadows* shadows,
+                        vtVec3 N, vtVec3 I, vtVec3 position, float exposure);

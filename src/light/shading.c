@@ -13,7 +13,7 @@ vtVec3 vtShadeSurface(const vtScene* scene, const vtPlacedObject* object, const 
     const vtVec3 position = vtTransformPoint(&object->toWorld, vtBlend(p, u, v));
     const float side = vtDot(look.G, I) > 0.0f ? -1.0f : 1.0f;
     const vtVec3 N = vtScale(look.N, side);
-    const vtIllumination illumination = {lighting, scene->lights, scene->lightCount};
-    return vtLook_SentLight(&look, &illumination, vtDot(N, I) < 0.0f ? N : vtScale(look.G, side), I, position,
-                            1.0f);
+    const vtIllumination illumination = {lighting, scene->lights, scene->lightCount, NULL};
+    return vtLook_SentLight(&look, &illumination, NULL, vtDot(N, I) < 0.0f ? N : vtScale(look.G, side), I,
+                            position, 1.0f);
 }

@@ -1,10 +1,13 @@
 #include "passes/ground.h"
 
+#include <float.h>
+
 #include <string.h>
 
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
+#include "passes/ground_caustics.h"
 
 /// Rays along a side of their square: 2 x 2 shade rays a texel of a sun, 8 x 8 of the sky. A page, which
 /// waits for them, takes a quarter of that.
@@ -35,7 +38,8 @@ typedef struct Rays {
     vtGroundPlan plan;
     vtTexture lights, targets[targetCount];
     GLuint framebuffer;
-    uint32_t* words; ///< of one target
+    uint32_t* words;     ///< of one target
+    vtCaustics caustics; ///< photons on opaque things
 } Rays;
 
 static vtResult makeRays(Rays* rays, const vtGL* gl, vtError* error)
@@ -72,6 +76,7 @@ static void destroyRays(Rays* rays, const vtGL* gl)
     }
     vtDestroyFramebuffers(gl, &rays->framebuffer, 1);
     vtFree(rays->words);
+    vtDestroyCaustics(&rays->caustics);
     vtDestroyGroundPlan(&rays->plan);
 }
 
@@ -82,103 +87,144 @@ static float asFloat(uint32_t word)
     return number;
 }
 
-static void addShade(Rays* rays, vtGroundLight light)
+static void addShade(Rays* rays, int source, int count)
 {
-    for (int i = 0; i < across * across; ++i) {
+    for (int i = 0; i < count * count; ++i) {
         const uint32_t state = rays->words[4 * (size_t)i + 3] >> 16;
-        if (state == 1) { // out, and nothing met
-            const int x = i % across, y = i / across;
-            const vtGroundRay ray = vtGroundPlan_Ray(&rays->plan, light, vt_groundShade, x, y, across, 0);
-            vtGroundPlan_AddLit(&rays->plan, light, &ray, x, y, across);
-        }
+        const int x = i % count, y = i / count;
+        const vtGroundRay ray = vtGroundPlan_Ray(&rays->plan, source, vt_groundShade, x, y, count, 0);
+        vtGroundPlan_AddShade(&rays->plan, source, &ray, x, y, count, state == 1); // out, and nothing met
     }
 }
 
-/// `isOwn`: of the paths themselves, which count only where they have met something.
-static void addPhotons(Rays* rays, vtGroundLight light, bool isOwn, vtVec3 origin)
+/// `isOwn`: of the paths themselves, which count only where they have met something. False where memory is
+/// out.
+static bool addPhotons(Rays* rays, int source, bool isOwn, vtVec3 origin, int count)
 {
-    for (int i = 0; i < across * across; ++i) {
+    bool ready = true;
+    for (int i = 0; i < count * count; ++i) {
         const uint32_t* word = rays->words + 4 * (size_t)i;
         if ((word[2] | (word[3] & 0xffffu)) == 0 || (isOwn && (word[3] & 0x20000u) == 0)) {
+            continue;
+        }
+        const vtGroundRay ray =
+            vtGroundPlan_Ray(&rays->plan, source, vt_groundPhotons, i % count, i / count, count, 0);
+        if (vtLanding_IsOpaque(word)) { // the sky lights opaque things without shadows
+            const vtVec3 flux = vtScale(ray.color, ray.area / ((float)count * (float)count));
+            ready = ready && (source == vt_groundSky || vtKeepLanding(&rays->caustics, word, flux));
             continue;
         }
         const vtVec3 share =
             vtScale((vtVec3){(float)(word[2] & 0xffffu), (float)(word[2] >> 16), (float)(word[3] & 0xffffu)},
                     1.0f / 65535.0f);
-        const vtGroundRay ray =
-            vtGroundPlan_Ray(&rays->plan, light, vt_groundPhotons, i % across, i / across, across, 0);
-        vtGroundPlan_AddPhoton(&rays->plan, light, &ray, asFloat(word[0]) + origin.x,
-                               asFloat(word[1]) + origin.z, share, across);
+        vtGroundPlan_AddPhoton(&rays->plan, source, &ray, asFloat(word[0]) + origin.x,
+                               asFloat(word[1]) + origin.z, share, count);
     }
+    return ready;
 }
 
-static void drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec3 origin, vtGroundLight light,
-                     vtGroundRays kind)
+/// What the shader has to know of a source.
+static void setUniforms(const vtGroundPass* pass, const vtGL* gl, const vtGroundPlan* plan, vtVec3 origin,
+                        int source, vtGroundRays kind, int count)
 {
-    const vtGroundPlan* plan = &rays->plan;
     const vtVec3 low = vtSub(plan->glassLow, origin), high = vtSub(plan->glassHigh, origin);
+    const vtGroundBeam beam = vtGroundPlan_Beam(plan, source);
+    const vtVec3 place = beam.isNear ? vtSub(beam.place, origin) : beam.place, axis = beam.axis;
     const float ground[4] = {plan->height - origin.y, plan->lowX - origin.x, plan->lowZ - origin.z,
                              plan->size};
-    const float numbers[4] = {(float)(2 * light + kind), (float)kind, plan->reach, (float)across};
+    const float numbers[4] = {(float)(2 * source + (int)kind), (float)kind, plan->reach, (float)count};
     const float box[8] = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
-    vtBindFramebuffer(gl, rays->framebuffer, across, across);
-    gl->UseProgram(pass->program.name);
+    const float light[8] = {place.x, place.y, place.z, source < 2 ? 0.0f : beam.isNear ? 1.0f : 2.0f,
+                            axis.x,  axis.y,  axis.z,  beam.cosine};
     gl->Uniform4fv(pass->program.uniforms[1], 1, ground);
     gl->Uniform4fv(pass->program.uniforms[2], 1, numbers);
     gl->Uniform4fv(pass->program.uniforms[3], 2, box);
+    gl->Uniform4fv(pass->program.uniforms[4], 2, light);
+}
+
+static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec3 origin, int source,
+                     vtGroundRays kind)
+{
+    bool ready = true;
+    const int count = vtGroundPlan_Across(&rays->plan, source, kind, across);
+    vtBindFramebuffer(gl, rays->framebuffer, count, count);
+    gl->UseProgram(pass->program.name);
+    setUniforms(pass, gl, &rays->plan, origin, source, kind, count);
     vtTexture_Bind(&rays->lights, gl, vt_samplerGroundLights);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
     const int targets = kind == vt_groundPhotons ? targetCount : 1;
     for (int i = 0; i < targets; ++i) {
         gl->ReadBuffer(GL_COLOR_ATTACHMENT0 + (GLenum)i);
-        gl->ReadPixels(0, 0, across, across, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rays->words);
+        gl->ReadPixels(0, 0, count, count, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rays->words);
         if (kind == vt_groundShade) {
-            addShade(rays, light);
+            addShade(rays, source, count);
         } else {
-            addPhotons(rays, light, i == 0, origin);
+            ready = addPhotons(rays, source, i == 0, origin, count) && ready;
         }
     }
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
+    return ready;
 }
 
-static bool isBlack(vtVec3 c)
+static vtResult followRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec3 origin,
+                           vtError* error)
 {
-    return c.x <= 0.0f && c.y <= 0.0f && c.z <= 0.0f;
-}
-
-static void followRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec3 origin)
-{
-    for (int light = 0; light < vt_groundLightCount; ++light) {
-        if (isBlack(rays->plan.irradiance[light])) {
+    bool ready = true;
+    for (int source = 0; source < rays->plan.sourceCount; ++source) {
+        if (vtGroundPlan_IsDark(&rays->plan, source)) {
             continue;
         }
-        drawRays(pass, gl, rays, origin, (vtGroundLight)light, vt_groundShade);
+        drawRays(pass, gl, rays, origin, source, vt_groundShade);
         if (rays->plan.hasGlass) {
-            drawRays(pass, gl, rays, origin, (vtGroundLight)light, vt_groundPhotons);
+            ready = drawRays(pass, gl, rays, origin, source, vt_groundPhotons) && ready;
         }
     }
+    return ready ? vt_ok : vtFail(error, vt_errorMemory, "ground: out of memory for photons");
+}
+
+/// As fine as a two hundredth of the glass, or of what else photons go through.
+static float spacingOf(const vtGroundPlan* plan)
+{
+    return fmaxf(vtLength(vtSub(plan->glassHigh, plan->glassLow)) / 200.0f, FLT_MIN);
+}
+
+/// Where surfaces let a part of the light pass that is opaque, all of them are photons' matter.
+static vtGroundScene describeScene(const vtSceneBuffer* scene)
+{
+    const bool all = scene->hasLooks, any = all || scene->glassCount > 0;
+    vtGroundScene described = {vtAdd(scene->low, scene->origin),
+                               vtAdd(scene->high, scene->origin),
+                               {1.0f, 1.0f, 1.0f},
+                               {0.0f, 0.0f, 0.0f},
+                               scene->lights,
+                               scene->lightCount};
+    if (any) {
+        described.glassLow = all ? described.low : vtAdd(scene->glassMin, scene->origin);
+        described.glassHigh = all ? described.high : vtAdd(scene->glassMax, scene->origin);
+    }
+    return described;
 }
 
 vtResult vtGroundPass_MakeMap(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
-                              const vtEnvironmentBuffer* environment, vtGroundMap* map, vtError* error)
+                              const vtEnvironmentBuffer* environment, vtGroundMap* map,
+                              vtCausticMap* caustics, vtError* error)
 {
-    const vtVec3 whole[2] = {vtAdd(scene->low, scene->origin), vtAdd(scene->high, scene->origin)};
-    // Where surfaces let a part of the light pass that is opaque, all of them are photons' matter.
-    const bool all = scene->hasLooks;
-    const vtVec3 none[2] = {{1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}};
-    const vtVec3 glass[2] = {vtAdd(scene->glassMin, scene->origin), vtAdd(scene->glassMax, scene->origin)};
+    *map = (vtGroundMap){0};
+    *caustics = (vtCausticMap){0};
+    const vtGroundScene described = describeScene(scene);
     Rays rays = {.framebuffer = 0};
-    vtResult result = vtPlanGround(&pass->ground, &environment->light, whole,
-                                   all                     ? whole
-                                   : scene->glassCount > 0 ? glass
-                                                           : none,
-                                   &rays.plan, error);
+    vtResult result = vtPlanGround(&pass->ground, &environment->light, &described, &rays.plan, error);
     if (result == vt_ok) {
         result = makeRays(&rays, gl, error);
     }
     if (result == vt_ok) {
         vtBindTraced(gl, scene, environment);
-        followRays(pass, gl, &rays, scene->origin);
+        result = followRays(pass, gl, &rays, scene->origin, error);
+    }
+    if (result == vt_ok) {
+        result = vtGatherLandings(&rays.caustics, gl, scene, spacingOf(&rays.plan), caustics, error);
+    }
+    if (result == vt_ok) {
         result = vtGroundPlan_Finish(&rays.plan, map, error);
     }
     destroyRays(&rays, gl);
@@ -188,12 +234,17 @@ vtResult vtGroundPass_MakeMap(vtGroundPass* pass, const vtGL* gl, const vtSceneB
 vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
                            const vtEnvironmentBuffer* environment, const vtFrame* frame, vtError* error)
 {
-    vtGroundMap map = {0};
-    vtResult result = vtGroundPass_MakeMap(pass, gl, scene, environment, &map, error);
+    vtGroundMap map;
+    vtCausticMap caustics;
+    vtResult result = vtGroundPass_MakeMap(pass, gl, scene, environment, &map, &caustics, error);
     if (result == vt_ok) {
         result = vtGroundBuffer_Set(&pass->buffer, gl, &map, scene->origin, error);
     }
+    if (result == vt_ok) {
+        result = vtGroundBuffer_SetCaustics(&pass->buffer, gl, &caustics, error);
+    }
     vtDestroyGroundMap(&map);
+    vtDestroyCausticMap(&caustics);
     pass->isStale = result != vt_ok;
     pass->frame = *frame;
     pass->frame.viewMatrix = pass->frame.projectionMatrix = NULL; // the caller's

@@ -24,7 +24,9 @@ void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant varia
 /// bound. Fails as vtPlanGround does.
 vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
                            const vtEnvironmentBuffer* environment, const vtFrame* frame, vtError* error);
-/// The map by itself, which vtGroundPass_Draw uploads.
+/// The maps by themselves, of the ground and of opaque things, which vtGroundPass_Draw uploads. Both are to
+/// be destroyed.
 vtResult vtGroundPass_MakeMap(vtGroundPass* pass, const vtGL* gl, const vtSceneBuffer* scene,
-                              const vtEnvironmentBuffer* environment, vtGroundMap* map, vtError* error);
+                              const vtEnvironmentBuffer* environment, vtGroundMap* map,
+                              vtCausticMap* caustics, vtError* error);
 void vtGroundPass_Destroy(vtGroundPass* pass, const vtGL* gl);

@@ -44,7 +44,7 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironm
            (vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? vt_traceHost : 0) |
            (any && only ? vt_traceOnlyHeights : 0) |
            (vtFrame_IsStrict(frame) && !looks ? vt_traceStrict : 0) |
-           (frame->countReads ? vt_traceCounted : 0);
+           (opaque && scene->lightCount > 0 ? vt_traceShade : 0) | (frame->countReads ? vt_traceCounted : 0);
 }
 
 /// `photons`: rays of the ground's lights in place of those from the eye.
@@ -55,7 +55,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0, rough = (variant & vt_traceRough) != 0;
     const bool strict = (variant & vt_traceStrict) != 0, spectral = (variant & vt_traceSpectral) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
-    const bool ground = (variant & vt_traceGround) != 0;
+    const bool ground = (variant & vt_traceGround) != 0, shade = (variant & vt_traceShade) != 0;
     const vtChunk* const chunks[] = {
         photons ? &vtChunk_with_photons : NULL,
         ground ? &vtChunk_with_ground : NULL,
@@ -63,6 +63,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         (variant & vt_traceStrict) != 0 ? &vtChunk_strict : &vtChunk_keeps_first,
         one ? &vtChunk_one_object : NULL,
         looks ? &vtChunk_with_looks : NULL,
+        shade ? &vtChunk_with_shade : NULL,
         opaque ? &vtChunk_with_opaque : NULL,
         rough ? &vtChunk_with_rough : NULL,
         records ? NULL : &vtChunk_only_heights,
@@ -75,7 +76,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         &vtChunk_environment,
         &vtChunk_objects,
         &vtChunk_optics,
-        strict && !rough && !spectral ? NULL : &vtChunk_chance,
+        strict && !rough && !spectral && !shade ? NULL : &vtChunk_chance,
         spectral ? &vtChunk_spectral : NULL,
         rough ? &vtChunk_rough : NULL,
         &vtChunk_cross_surface,
@@ -85,6 +86,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         heights ? &vtChunk_search_heights : NULL,
         &vtChunk_search_scene,
         opaque || rough ? &vtChunk_lighting : NULL,
+        shade && ground ? &vtChunk_caustics : NULL,
+        shade ? &vtChunk_shade : NULL,
         opaque ? &vtChunk_shading : NULL,
         looks ? &vtChunk_looks : NULL,
         looks ? &vtChunk_cross_look : NULL,
@@ -98,8 +101,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
     };
     vtProgramDef def = {.name = photons ? "photons" : "trace",
                         .vertex = {&vtChunk_screen_vert},
-                        .uniforms = {"u_branches", "u_ground", photons ? "u_groundRays" : "u_groundRadiance",
-                                     photons ? "u_groundBox" : NULL}};
+                        .uniforms = {"u_branches", "u_ground", photons ? "u_groundRays" : "u_groundMatt",
+                                     photons ? "u_groundBox" : "u_sun", photons ? "u_groundLight" : NULL}};
     vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
     return def;
 }
@@ -111,10 +114,27 @@ vtProgramDef vtTracePhotons(vtTraceVariant variant)
     return describe(variant & ofScene, true);
 }
 
+/// The place of the variant's program; -1: it is not there.
+static int findProgram(const vtTracePass* pass, vtTraceVariant variant)
+{
+    int found = -1;
+    for (int i = 0; i < VT_TRACE_PROGRAMS; ++i) {
+        found = pass->programs[i].name != 0 && pass->variants[i] == variant ? i : found;
+    }
+    return found;
+}
+
 void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs)
 {
     const vtProgramDef def = describe(variant, false);
-    vtProgramList_Start(programs, &pass->programs[variant], gl, &def);
+    int at = findProgram(pass, variant);
+    if (at < 0) {
+        at = pass->nextProgram;
+        vtProgram_Destroy(&pass->programs[at], gl);
+        pass->variants[at] = variant;
+        pass->nextProgram = (at + 1) % VT_TRACE_PROGRAMS;
+    }
+    vtProgramList_Start(programs, &pass->programs[at], gl, &def);
 }
 
 vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, int width, int height,
@@ -157,7 +177,7 @@ void vtBindTraced(const vtGL* gl, const vtSceneBuffer* scene, const vtEnvironmen
 void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant variant,
                       const vtTraceInputs* inputs)
 {
-    const vtProgram* program = &pass->programs[variant];
+    const vtProgram* program = &pass->programs[findProgram(pass, variant)];
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
     vtBindFramebuffer(gl, pass->framebuffers[host], pass->paths.width, pass->paths.height);
     gl->UseProgram(program->name);
@@ -165,8 +185,14 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
     vtBindTraced(gl, inputs->scene, inputs->environment);
     if ((variant & vt_traceGround) != 0) {
         gl->Uniform4fv(program->uniforms[1], 1, inputs->ground->place);
-        gl->Uniform4fv(program->uniforms[2], 1, inputs->ground->radiance);
+        gl->Uniform4fv(program->uniforms[2], 2, inputs->ground->matt);
         vtTexture_Bind(&inputs->ground->map, gl, vt_samplerGround);
+    }
+    if ((variant & vt_traceShade) != 0) {
+        gl->Uniform4fv(program->uniforms[3], 4, inputs->sun);
+        if ((variant & vt_traceGround) != 0) {
+            vtTexture_Bind(&inputs->ground->caustics, gl, vt_samplerCaustics);
+        }
     }
     if (host) {
         vtHostPicture_Bind(inputs->host, gl);
@@ -179,7 +205,7 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
 
 void vtTracePass_Destroy(vtTracePass* pass, const vtGL* gl)
 {
-    for (int i = 0; i < vt_traceVariantCount; ++i) {
+    for (int i = 0; i < VT_TRACE_PROGRAMS; ++i) {
         vtProgram_Destroy(&pass->programs[i], gl);
     }
     vtDestroyFramebuffers(gl, pass->framebuffers, 2);

@@ -21,12 +21,16 @@ typedef enum vtTraceVariant {
     vt_traceGround = 512, ///< it stands on a ground
     vt_traceRough = 1024, ///< some glass is rough
     vt_traceSpectral = 2048, ///< some glass disperses
-    vt_traceVariantCount = 4096,
+    vt_traceShade = 4096,    ///< opaque things are lit by the sun, or by lights of files
 } vtTraceVariant;
+
+#define VT_TRACE_PROGRAMS 32 ///< that are kept
 
 /// The techniques that need no image of the scene: from the eye to the light in one drawing (trace.frag).
 typedef struct vtTracePass {
-    vtProgram programs[vt_traceVariantCount];
+    vtProgram programs[VT_TRACE_PROGRAMS]; ///< those drawn with last
+    vtTraceVariant variants[VT_TRACE_PROGRAMS];
+    int nextProgram;        ///< whose place is taken where there is no other
     GLuint framebuffers[2]; ///< the second with depths
     vtTexture paths;        ///< RGBA32UI: bits of the last direction (three floats), state (VT_PATH_...)
     vtTexture
@@ -40,6 +44,7 @@ typedef struct vtTraceInputs {
     const vtEnvironmentBuffer* environment;
     const vtHostPicture* host;
     const vtGroundBuffer* ground; ///< for a variant with vt_traceGround
+    float sun[16];                ///< for a variant with vt_traceShade: shade.glsl's
     int branches;                 ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
 } vtTraceInputs;
 
@@ -47,7 +52,7 @@ typedef struct vtTraceInputs {
 bool vtTrace_IsRough(const vtSceneBuffer* scene, const vtFrame* frame);
 /// Does some glass disperse, and is drawn so?
 bool vtTrace_Disperses(const vtSceneBuffer* scene, const vtFrame* frame);
-/// The variant for a frame.
+/// The variant for a frame, but for what a ground asks for.
 vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironmentBuffer* environment,
                                     const vtFrame* frame);
 /// The program of a variant for rays of the ground's lights (shaders_es3/ground/photons.frag); of the

@@ -1,6 +1,8 @@
 // From a scene to paths and their light: the passes of a frame, in order, but the last. Techniques that
 // search layers, or blend: surface, peel, merge, refract, shade; those that need no image of the scene:
 // trace. Each pass reads the targets of those before it and writes its own.
+#include <string.h>
+
 #include "image/image.h"
 #include "render/renderer.h"
 #include "technique/technique.h"
@@ -52,8 +54,35 @@ bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame)
 /// The variant of the trace pass.
 static vtTraceVariant chooseTrace(const vtRenderer* renderer, const vtFrame* frame)
 {
+    const bool ground = vtRenderer_ShowsGround(renderer, frame);
+    const vtSun sun = vtGivenSun(&renderer->ground.ground, &renderer->environment.sun);
     return vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame) |
-           (vtRenderer_ShowsGround(renderer, frame) ? vt_traceGround : 0);
+           (ground ? vt_traceGround : 0) |
+           (ground && hasOpaque(renderer) && vtSun_IsThere(&sun) ? vt_traceShade : 0);
+}
+
+/// Is the sun of the environment a light of its own in the frame?
+static bool partsSun(const vtRenderer* renderer, const vtFrame* frame)
+{
+    return vtRenderer_ShowsGround(renderer, frame) && (chooseTrace(renderer, frame) & vt_traceShade) != 0 &&
+           vtSun_IsThere(&renderer->environment.sun);
+}
+
+static void writeSun(const vtSun* sun, float numbers[8])
+{
+    const vtVec3 d = sun->direction, light = sun->irradiance;
+    const float all[8] = {d.x, d.y, d.z, sun->radius, light.x, light.y, light.z, 0.0f};
+    memcpy(numbers, all, sizeof all);
+}
+
+/// What lights opaque things beside the lighting, for shade.glsl.
+static void findSuns(const vtRenderer* renderer, const vtFrame* frame, float suns[16])
+{
+    const vtSun none = {.direction = {0.0f, 1.0f, 0.0f}};
+    const bool ground = vtRenderer_ShowsGround(renderer, frame);
+    const vtSun sun = vtGivenSun(&renderer->ground.ground, &renderer->environment.sun);
+    writeSun(ground ? &sun : &none, suns);
+    writeSun(partsSun(renderer, frame) ? &renderer->environment.sun : &none, suns + 8);
 }
 
 void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs)
@@ -61,6 +90,9 @@ void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProg
     const vtGL* gl = &renderer->gl;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     const vtVariant variant = vtFrame_Variant(frame, hasOpaque(renderer));
+    if (vtRenderer_ShowsGround(renderer, frame)) {
+        vtEnvironmentBuffer_FindSun(&renderer->environment);
+    }
     if (row->traces) {
         const vtTraceVariant trace = chooseTrace(renderer, frame);
         vtTracePass_Start(&renderer->trace, gl, trace, programs);
@@ -131,7 +163,7 @@ vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, in
                                                frame->width, frame->height, error)
                           : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
     if (result == vt_ok && (hasOpaque(renderer) || vtTrace_IsRough(&renderer->scene, frame))) {
-        result = vtEnvironmentBuffer_Light(&renderer->environment, gl, error);
+        result = vtEnvironmentBuffer_Light(&renderer->environment, gl, partsSun(renderer, frame), error);
     }
     if (result == vt_ok && frame->background == vt_backgroundBlurred) {
         result = vtEnvironmentBuffer_Blur(&renderer->environment, gl, frame->backgroundBlur, error);
@@ -219,12 +251,13 @@ void vtRenderer_DrawPaths(vtRenderer* renderer, const vtFrame* frame, bool layer
         return;
     }
     renderer->gl.BindVertexArray(renderer->emptyVertexArray);
-    vtTracePass_Draw(&renderer->trace, &renderer->gl, chooseTrace(renderer, frame),
-                     &(vtTraceInputs){.scene = &renderer->scene,
-                                      .environment = &renderer->environment,
-                                      .host = &renderer->host,
-                                      .ground = &renderer->ground.buffer,
-                                      .branches = vtFrame_BranchCount(frame)});
+    vtTraceInputs inputs = {.scene = &renderer->scene,
+                            .environment = &renderer->environment,
+                            .host = &renderer->host,
+                            .ground = &renderer->ground.buffer,
+                            .branches = vtFrame_BranchCount(frame)};
+    findSuns(renderer, frame, inputs.sun);
+    vtTracePass_Draw(&renderer->trace, &renderer->gl, chooseTrace(renderer, frame), &inputs);
     vtEndStage(frame, "trace");
 }
 

@@ -58,7 +58,7 @@ static inline vtLighting lightingOf(const vtEnvironment* environment)
 {
     vtLighting lighting;
     vtError error;
-    assert_ok(vtCreateLighting(environment, &lighting, &error), error);
+    assert_ok(vtCreateLighting(environment, NULL, &lighting, &error), error);
     return lighting;
 }
 

@@ -55,7 +55,7 @@ export const attributes = [
   string('background', 'What is behind the scene; glass goes on showing environment-image. transparent, environment, blurred, blurred:DEGREES (1 to 90; 6), a colour as #f0e8d8, or URL of a picture that fills the element. Absent: environment with skybox-image, else transparent.'),
   number('exposure', 1e-6, 1e6, 1, 'Factor on the light of the picture.'),
   oneOf('tone-mapping', ['none', 'neutral', 'aces', 'agx'], 'From light to what a display shows: cut at white, Khronos PBR Neutral, the filmic curve of ACES, or AgX.', { default: 'neutral' }),
-  boolean('ground', 'The ground below catches shadows and light: exact and heightfield.'),
+  boolean('ground', 'The ground below catches shadows and light; the sun of the environment casts shadows on opaque things, too: exact and heightfield.'),
   number('shadow-intensity', 0, 1, null, 'Of what is caught; above 0 it stands for ground.', { defaultText: '1 with ground, else 0' }),
   number('shadow-softness', 0, 1, 0, '0: as the lights are wide; 1: blurred.'),
   oneOf('touch-action', ['pan-y', 'pan-x', 'none'], 'What a finger does to the page rather than to the view.'),

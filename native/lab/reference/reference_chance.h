@@ -9,6 +9,7 @@ typedef enum vtChance {
     vt_chanceWalk,      ///< how deep that is, and whether what leaves is met again
     vt_chanceWave,      ///< the wavelength
     vt_chanceKeep,      ///< whether a path of little light goes on
+    vt_chanceSun,       ///< a point of the sun
     vt_chanceMore,      ///< all that follows
 } vtChance;
 

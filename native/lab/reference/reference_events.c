@@ -16,6 +16,7 @@
 #include "base/optics.h"
 #include "lab/reference/reference_chance.h"
 #include "lab/reference/reference_rough.h"
+#include "lab/reference/reference_shade.h"
 #include "lab/reference/reference_spectrum.h"
 #include "mesh/mesh_triangle.h"
 #include "scene/material.h"
@@ -132,8 +133,10 @@ static void look(const vtReference* reference, const vtPathRules* rules, vtRefer
         const vtVec3 I = path->direction;
         const float side = vtDot(seen->G, I) > 0.0f ? -1.0f : 1.0f;
         const vtVec3 N = vtScale(vtDot(vtScale(seen->N, side), I) < 0.0f ? seen->N : seen->G, side);
-        const vtVec3 sent =
-            vtLook_SentLight(seen, rules->illumination, N, I, vtSurfacePoint(object, hit), rules->exposure);
+        const bool casts = reference->glassCount < reference->objectCount; // else nothing is dark
+        const vtShadeRays rays = vtMakeShadeRays(reference, rules, path, hit);
+        const vtVec3 sent = vtLook_SentLight(seen, rules->illumination, casts ? &rays.shadows : NULL, N, I,
+                                             rays.start.origin, rules->exposure);
         path->light = vtMulAdd(path->light, seen->coverage, vtMultiply(path->weight, sent));
     }
 }
@@ -455,6 +458,7 @@ bool vtMeetGlass(const vtReference* reference, const vtPathRules* rules, vtRefer
     path->reflected |= ways.total;
     const bool passes = seen->passes * seen->coverage + (together ? 1.0f - seen->coverage : 0.0f) > 0.0f;
     if (!passes && seen->coverage >= 1.0f) {
+        path->end = *vtPlace_Surface(place)->hit;
         return vtEndPath(path, VT_PATH_OPAQUE);
     }
     // The path itself is what goes through, or is totally reflected; else what passes beside.

@@ -1,12 +1,14 @@
 // The light on the ground below the reference's scene: all parts of every photon's light are followed,
 // without chance, and there are more of them than the renderer has. The sources: src/light/ground.c.
+#include <float.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "lab/reference/reference_scene.h"
+#include "lab/reference/reference_place.h"
 #include "lab/reference/reference_threads.h"
+#include "mesh/mesh_triangle.h"
 
 /// Rays along a side of their square.
 enum { shadeAcross = 1024, sunPhotons = 1536, skyPhotons = 768, seed = 0x1e3779b9 };
@@ -16,7 +18,8 @@ typedef struct GroundJob {
     const vtReference* reference;
     const vtPathRules* rules;
     vtGroundPlan* plan;
-    vtGroundLight light;
+    vtCaustics* caustics;
+    int source;
     vtGroundRays rays;
     int across;
     pthread_mutex_t lock; ///< of the plan's sums
@@ -26,21 +29,44 @@ typedef struct GroundJob {
 
 static vtGroundRay rayOf(const GroundJob* job, int x, int y)
 {
-    return vtGroundPlan_Ray(job->plan, job->light, job->rays, x, y, job->across, (uint32_t)seed);
+    return vtGroundPlan_Ray(job->plan, job->source, job->rays, x, y, job->across, (uint32_t)seed);
+}
+
+/// Adds what came of a path that ends on something opaque; the sky lights that without shadows.
+static void addOpaque(GroundJob* job, const vtReferencePath* path, int row)
+{
+    if (job->source == vt_groundSky) {
+        return;
+    }
+    const vtGroundRay ray = rayOf(job, (int)path->source, row);
+    const float share = ray.area / ((float)job->across * (float)job->across);
+    const vtVec3 G = vtTriangleNormal(&job->reference->objects[path->end.object], &path->end);
+    const vtCausticHit hit = {.object = path->end.object,
+                              .triangle = path->end.triangle,
+                              .u = path->end.u,
+                              .v = path->end.v,
+                              .behind = vtDot(G, path->direction) > 0.0f,
+                              .flux = vtScale(vtMultiply(ray.color, path->weight), share)};
+    if (!vtCaustics_Add(job->caustics, &hit)) {
+        atomic_store(&job->failed, true);
+    }
 }
 
 /// Adds what came of a path; those that went past everything are no photons' matter.
-static void addPath(const GroundJob* job, const vtReferencePath* path, int row)
+static void addPath(GroundJob* job, const vtReferencePath* path, int row)
 {
     const bool isOut = path->state == VT_PATH_EXITED || path->state == VT_PATH_BACKGROUND;
     const bool isMet = path->events > 0 || path->passes > 0;
+    if (isMet && path->state == VT_PATH_OPAQUE) {
+        addOpaque(job, path, row);
+    }
     if (!isOut || !isMet || path->direction.y > -1e-6f) {
         return;
     }
     const float above = fmaxf(path->origin.y - job->plan->height, 0.0f);
     const vtVec3 at = vtMulAdd(path->origin, above / -path->direction.y, path->direction);
     const vtGroundRay ray = rayOf(job, (int)path->source, row);
-    vtGroundPlan_AddPhoton(job->plan, job->light, &ray, at.x, at.z, path->weight, job->across);
+    vtGroundPlan_AddPhoton(job->plan, job->source, &ray, at.x, at.z, path->weight, job->across);
 }
 
 static bool followPhotons(GroundJob* job, int row, vtPathList* list)
@@ -68,11 +94,10 @@ static void followShade(GroundJob* job, int row, const vtPathList* list)
         vtReference_Meet(job->reference, list->paths, numbers, count, true, meetings);
         pthread_mutex_lock(&job->lock);
         for (int lane = 0; lane < count; ++lane) {
-            if (meetings[lane].glassCount == 0 && meetings[lane].opaque.triangle == VT_NO_TRIANGLE) {
-                const int x = (int)numbers[lane];
-                const vtGroundRay ray = rayOf(job, x, row);
-                vtGroundPlan_AddLit(job->plan, job->light, &ray, x, row, job->across);
-            }
+            const int x = (int)numbers[lane];
+            const vtGroundRay ray = rayOf(job, x, row);
+            const bool isLit = fminf(meetings[lane].nearest, meetings[lane].opaque.distance) >= ray.length;
+            vtGroundPlan_AddShade(job->plan, job->source, &ray, x, row, job->across, isLit);
         }
         pthread_mutex_unlock(&job->lock);
     }
@@ -106,16 +131,18 @@ static void* workGround(void* data)
 }
 
 static bool followRays(const vtReference* reference, const vtPathRules* rules, int threads,
-                       vtGroundPlan* plan, vtGroundLight light, vtGroundRays rays)
+                       vtGroundPlan* plan, vtCaustics* caustics, int source, vtGroundRays rays)
 {
     GroundJob job = {.reference = reference,
                      .rules = rules,
                      .plan = plan,
-                     .light = light,
+                     .caustics = caustics,
+                     .source = source,
                      .rays = rays,
-                     .across = rays == vt_groundShade  ? shadeAcross
-                               : light == vt_groundSun ? sunPhotons
-                                                       : skyPhotons};
+                     .across = vtGroundPlan_Across(plan, source, rays,
+                                                   rays == vt_groundShade   ? shadeAcross
+                                                   : source == vt_groundSky ? skyPhotons
+                                                                            : sunPhotons)};
     atomic_init(&job.nextRow, 0);
     atomic_init(&job.failed, false);
     if (pthread_mutex_init(&job.lock, NULL) != 0) {
@@ -129,54 +156,67 @@ static bool followRays(const vtReference* reference, const vtPathRules* rules, i
     return !atomic_load(&job.failed);
 }
 
-/// Boxes of the scene and of its glass; where surfaces let a part of the light pass that is opaque, all of
-/// them are photons' matter.
-static void boundObjects(const vtReference* reference, vtVec3 whole[2], vtVec3 glass[2])
+static void extend(vtVec3* low, vtVec3* high, const vtPlacedObject* object)
+{
+    *low = (vtVec3){fminf(low->x, object->low.x), fminf(low->y, object->low.y), fminf(low->z, object->low.z)};
+    *high = (vtVec3){fmaxf(high->x, object->high.x), fmaxf(high->y, object->high.y),
+                     fmaxf(high->z, object->high.z)};
+}
+
+/// Where surfaces let a part of the light pass that is opaque, all of them are photons' matter.
+static vtGroundScene describeScene(const vtReference* reference)
 {
     const vtVec3 most = {INFINITY, INFINITY, INFINITY}, least = {-INFINITY, -INFINITY, -INFINITY};
     const bool all = vtScene_HasLooks(reference->scene);
-    whole[0] = glass[0] = most;
-    whole[1] = glass[1] = least;
+    vtGroundScene described = {
+        most, least, most, least, reference->scene->lights, reference->scene->lightCount};
     for (uint32_t i = 0; i < reference->objectCount; ++i) {
         const vtPlacedObject* object = &reference->objects[i];
-        for (int box = 0; box < 2; ++box) {
-            vtVec3* bounds = box == 0 ? whole : glass;
-            if (box == 0 || all || i < reference->glassCount) {
-                bounds[0] = (vtVec3){fminf(bounds[0].x, object->low.x), fminf(bounds[0].y, object->low.y),
-                                     fminf(bounds[0].z, object->low.z)};
-                bounds[1] = (vtVec3){fmaxf(bounds[1].x, object->high.x), fmaxf(bounds[1].y, object->high.y),
-                                     fmaxf(bounds[1].z, object->high.z)};
-            }
+        extend(&described.low, &described.high, object);
+        if (all || i < reference->glassCount) {
+            extend(&described.glassLow, &described.glassHigh, object);
         }
+    }
+    return described;
+}
+
+static void cornersOf(const void* data, uint32_t object, uint32_t triangle, vtVec3 p[3])
+{
+    const vtPlacedObject* placed = &((const vtReference*)data)->objects[object];
+    vtMesh_Corners(placed->mesh, triangle, p);
+    for (int k = 0; k < 3; ++k) {
+        p[k] = vtTransformPoint(&placed->toWorld, p[k]);
     }
 }
 
 vtResult vtReference_LightGround(const vtReference* reference, const vtPathRules* rules,
                                  const vtGround* ground, const vtEnvironment* environment, int threads,
-                                 vtGroundMap* map, vtError* error)
+                                 vtGroundMap* map, vtCausticMap* caustics, vtError* error)
 {
     *map = (vtGroundMap){0};
-    vtVec3 whole[2], glass[2];
-    boundObjects(reference, whole, glass);
+    *caustics = (vtCausticMap){0};
+    vtCaustics photons = {0};
+    const vtGroundScene scene = describeScene(reference);
     vtGroundPlan plan;
-    vtResult result = vtPlanGround(ground, environment, whole, glass, &plan, error);
+    vtResult result = vtPlanGround(ground, environment, &scene, &plan, error);
     if (result != vt_ok) {
         return result;
     }
     vtPathRules dark = *rules;
     dark.illumination = NULL; // what surfaces send is not looked at
     bool ready = true;
-    for (int light = 0; light < vt_groundLightCount && ready; ++light) {
-        const vtVec3 irradiance = plan.irradiance[light];
-        if (irradiance.x + irradiance.y + irradiance.z <= 0.0f) {
-            continue;
+    for (int source = 0; source < plan.sourceCount && ready; ++source) {
+        if (!vtGroundPlan_IsDark(&plan, source)) {
+            ready = followRays(reference, &dark, threads, &plan, &photons, source, vt_groundShade) &&
+                    (!plan.hasGlass ||
+                     followRays(reference, &dark, threads, &plan, &photons, source, vt_groundPhotons));
         }
-        ready = followRays(reference, &dark, threads, &plan, (vtGroundLight)light, vt_groundShade) &&
-                (!plan.hasGlass ||
-                 followRays(reference, &dark, threads, &plan, (vtGroundLight)light, vt_groundPhotons));
     }
+    const float spacing = fmaxf(vtLength(vtSub(plan.glassHigh, plan.glassLow)) / 300.0f, FLT_MIN);
+    ready = ready && vtCaustics_Gather(&photons, spacing, &(vtCornersOf){cornersOf, reference}, caustics);
     result = ready ? vtGroundPlan_Finish(&plan, map, error)
                    : vtFail(error, vt_errorMemory, "ground: out of memory for photons");
+    vtDestroyCaustics(&photons);
     vtDestroyGroundPlan(&plan);
     return result;
 }

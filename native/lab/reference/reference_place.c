@@ -3,7 +3,7 @@
 
 #include "mesh/mesh_triangle.h"
 
-static vtVec3 triangleNormal(const vtPlacedObject* object, const vtSurfaceHit* hit)
+vtVec3 vtTriangleNormal(const vtPlacedObject* object, const vtSurfaceHit* hit)
 {
     vtVec3 p[3];
     vtMesh_Corners(object->mesh, hit->triangle, p);
@@ -42,7 +42,7 @@ bool vtFindSurfaces(const vtReference* reference, const vtReferencePath* path, c
     place->opaque = &meeting->opaque;
     for (int i = 0; i < meeting->glassCount; ++i) {
         const vtSurfaceHit* hit = &meeting->glass[i];
-        const vtVec3 G = triangleNormal(&reference->objects[hit->object], hit);
+        const vtVec3 G = vtTriangleNormal(&reference->objects[hit->object], hit);
         vtSurface* surface = &place->surfaces[place->count];
         *surface = (vtSurface){hit, &reference->objects[hit->object], G, vtDot(G, path->direction) > 0.0f};
         if (!isStart(reference, path, surface)) {

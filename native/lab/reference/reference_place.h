@@ -19,6 +19,9 @@ typedef struct vtPlace {
     vtMedia before, after;      ///< what the path is within, if it goes on straight or refracted
 } vtPlace;
 
+/// Outward, of the triangle, world.
+vtVec3 vtTriangleNormal(const vtPlacedObject* object, const vtSurfaceHit* hit);
+
 vtVec3 vtSurfacePoint(const vtPlacedObject* object, const vtSurfaceHit* hit);
 
 /// The surfaces of glass that the path meets; false where the nearest is the one it starts from.

@@ -5,7 +5,8 @@
 
 #include "base/math.h"
 #include "lab/reference/reference.h"
-#include "light/ground.h"
+#include "light/caustics.h"
+#include "light/ground_map.h"
 #include "light/look.h"
 #include "scene/media.h"
 #include "scene/objects.h"
@@ -92,7 +93,8 @@ typedef struct vtPathRules {
     /// With all that is decided by chance: roughness, wavelengths, what little light goes on. Else surfaces
     /// are smooth, glass has one index, and paths of less than 0.002 are left out.
     bool chance;
-    uint32_t sample;                   ///< its number
+    uint32_t sample;              ///< its number
+    const vtCausticMap* caustics; ///< light that glass bends onto opaque things; NULL: it goes straight on
     const struct vtSpectrum* spectrum; ///< NULL: three paths at the channels' means in place of one
 } vtPathRules;
 
@@ -147,10 +149,11 @@ void vtDestroyPathList(vtPathList* list);
 /// to it. False where memory is short.
 bool vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtPathList* list);
 
-/// What falls on a ground below the scene: photons that follow the rules. Fails as vtPlanGround does.
+/// What falls on a ground below the scene, and through glass on opaque things: photons that follow the rules.
+/// Both maps are to be destroyed. Fails as vtPlanGround does; then they are zeroed.
 vtResult vtReference_LightGround(const vtReference* reference, const vtPathRules* rules,
                                  const vtGround* ground, const vtEnvironment* environment, int threads,
-                                 vtGroundMap* map, vtError* error);
+                                 vtGroundMap* map, vtCausticMap* caustics, vtError* error);
 
 /// A path that starts at the eye, which lies within these objects.
 static inline vtReferencePath vtMakePath(vtVec3 origin, vtVec3 direction, vtMedia within, uint32_t source)

@@ -28,9 +28,11 @@ typedef struct Job {
     vtMedia eyeMedia;    ///< what the eye is within
     vtLighting lighting; ///< of surfaces that are matt or rough
     vtIllumination illumination;
+    vtSun sun;            ///< over the ground
     vtSpectrum* spectrum; ///< NULL: glass does not disperse, or there is one sample only
     bool isRough;         ///< something is, or glass disperses
     vtGroundMap ground;   ///< its light NULL: there is none
+    vtCausticMap caustics;
     int tileColumns, tileCount;
     atomic_int nextTile;
     atomic_bool failed; ///< memory is short
@@ -317,8 +319,15 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     vtLighting lighting = {0};
     vtResult result = checkDef(reference, def, error);
     const bool hasOpaque = reference->glassCount < reference->objectCount;
+    vtSun sun = {0}, found = {0};
+    if (result == vt_ok && def->ground != NULL && def->environment != NULL && hasOpaque) {
+        result = vtFindSun(def->environment, &found)
+                     ? vt_ok
+                     : vtFail(error, vt_errorMemory, "reference: out of memory");
+        sun = vtGivenSun(def->ground, &found);
+    }
     if (result == vt_ok && def->environment != NULL && (hasOpaque || vtScene_HasLooks(reference->scene))) {
-        result = vtCreateLighting(def->environment, &lighting, error);
+        result = vtCreateLighting(def->environment, vtSun_IsThere(&found) ? &found : NULL, &lighting, error);
     }
     if (result == vt_ok) {
         result = createImage(def, image, error);
@@ -346,11 +355,13 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
         .eyeMedia = frame->orthographicHeight > 0.0f ? (vtMedia){{0}} // its eyes are taken to be in the air
                                                      : findEyeMedia(reference, frame->view.eye),
         .lighting = lighting,
-        .illumination = {NULL, reference->scene->lights, reference->scene->lightCount},
+        .illumination = {NULL, reference->scene->lights, reference->scene->lightCount, NULL},
+        .sun = sun,
         .tileColumns = tileColumns,
         .tileCount = tileColumns * tileRows,
     };
     job.illumination.lighting = &job.lighting;
+    job.illumination.sun = vtSun_IsThere(&sun) ? &job.sun : NULL;
     job.rules.illumination = lighting.specular != NULL ? &job.illumination : NULL;
     atomic_init(&job.nextTile, 0);
     atomic_init(&job.failed, false);
@@ -363,7 +374,8 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     }
     if (def->ground != NULL && def->environment != NULL) {
         result = vtReference_LightGround(reference, &job.rules, def->ground, def->environment, def->threads,
-                                         &job.ground, error);
+                                         &job.ground, &job.caustics, error);
+        job.rules.caustics = &job.caustics;
     }
     if (result == vt_ok) {
         runJob(&job);
@@ -371,6 +383,7 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     free(job.spectrum);
     vtDestroyLighting(&lighting);
     vtDestroyGroundMap(&job.ground);
+    vtDestroyCausticMap(&job.caustics);
     if (result != vt_ok) {
         vtDestroyReferenceImage(image);
         return result;

@@ -2,8 +2,8 @@
 #include "gl/state.h"
 #include "lab/metrics/metrics_image.h"
 #include "lab/reference/reference_scene.h"
+#include "lit_scenes.h"
 #include "render/renderer.h"
-#include "rendering.h"
 
 static vtGround sunnyGround(void)
 {
@@ -39,18 +39,22 @@ static void compareMaps(Fixture* fixture, const vtReference* reference, const vt
 {
     vtRenderer* renderer = fixture->renderer;
     vtGroundMap drawn, traced;
+    vtCausticMap caustics;
     vtError error;
     vtTakeState(&renderer->gl);
     renderer->gl.BindVertexArray(renderer->emptyVertexArray);
     assert_ok(vtGroundPass_MakeMap(&renderer->ground, &renderer->gl, &renderer->scene, &renderer->environment,
-                                   &drawn, &error),
+                                   &drawn, &caustics, &error),
               error);
+    vtDestroyCausticMap(&caustics);
     const vtPathRules rules = {.maxEvents = vtResolveFrame(frame).maxEvents,
                                .fresnel = true,
                                .exposure = 1.0f,
                                .roughness = -1.0f,
                                .dispersion = -1.0f};
-    assert_ok(vtReference_LightGround(reference, &rules, ground, environment, 0, &traced, &error), error);
+    assert_ok(vtReference_LightGround(reference, &rules, ground, environment, 0, &traced, &caustics, &error),
+              error);
+    vtDestroyCausticMap(&caustics);
     const double all = (double)(drawn.gathered.x / traced.gathered.x);
     print_message("light on the map %.4f of the reference's, what is changed %.4f of %.4f\n", all,
                   changeOf(&drawn), changeOf(&traced));
@@ -80,27 +84,32 @@ static void comparePictures(Fixture* fixture, const vtReference* reference, cons
     vtDestroyReferenceImage(&image);
 }
 
-static void checkShape(Fixture* fixture, const char* shape)
+static void checkScene(Fixture* fixture, vtScene* scene, const vtGround* ground, vtFrame frame)
 {
-    const vtGround ground = sunnyGround();
-    const vtFrame frame = viewFromAbove();
     vtEnvironment studio;
-    vtMesh mesh;
-    vtBorrowedMesh borrowed;
     vtReference* reference;
     vtError error;
     assert_ok(vtCreateEnvironment("studio", &studio, &error), error);
-    assert_ok(vtCreateShape(shape, &mesh, &error), error);
-    const vtScene* scene = vtBorrowMesh(&mesh, &borrowed);
     assert_ok(vtRenderer_SetScene(fixture->renderer, scene, &error), error);
     assert_ok(vtRenderer_SetEnvironment(fixture->renderer, &studio, &error), error);
-    assert_ok(vtRenderer_SetGround(fixture->renderer, &ground, &error), error);
+    assert_ok(vtRenderer_SetGround(fixture->renderer, ground, &error), error);
     assert_ok(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error), error);
     assert_ok(vtCreateReference(scene, &reference, &error), error);
-    compareMaps(fixture, reference, &frame, &ground, &studio);
-    comparePictures(fixture, reference, &frame, &ground, &studio);
+    compareMaps(fixture, reference, &frame, ground, &studio);
+    comparePictures(fixture, reference, &frame, ground, &studio);
     vtDestroyReference(reference);
-    vtDestroyMesh(&mesh);
+    vtDestroyScene(scene);
+}
+
+static const vtVec3 one = {1.0f, 1.0f, 1.0f}, middle = {0.0f, 0.0f, 0.0f};
+
+static void checkShape(Fixture* fixture, const char* shape)
+{
+    const vtGround ground = sunnyGround();
+    const vtMaterial glass = vtDefaultMaterial();
+    vtScene scene = {0};
+    addShape(&scene, shape, &glass, one, middle);
+    checkScene(fixture, &scene, &ground, viewFromAbove());
 }
 
 static void theGroundBelowABall(void** state)
@@ -113,6 +122,41 @@ static void theGroundBelowAGoblet(void** state)
 {
     checkShape(*state, "goblet");
 }
+
+/// A ball of glass and a matt one by two lamps and a sun.
+static void theGroundByLamps(void** state)
+{
+    const vtGround ground = sunnyGround();
+    const vtMaterial glass = vtDefaultMaterial(), matt = mattOf((vtVec3){0.7f, 0.5f, 0.3f});
+    vtScene scene = {0};
+    addShape(&scene, "sphere", &glass, (vtVec3){0.5f, 0.5f, 0.5f}, (vtVec3){-0.4f, 0.0f, 0.2f});
+    addShape(&scene, "sphere", &matt, (vtVec3){0.4f, 0.4f, 0.4f}, (vtVec3){0.5f, -0.1f, 0.0f});
+    addLight(&scene,
+             (vtLight){.kind = vt_lightPoint, .position = {-1.2f, 1.2f, 0.6f}, .color = {1.5f, 1.2f, 0.9f}});
+    addLight(&scene, (vtLight){.kind = vt_lightSpot,
+                               .position = {1.0f, 1.5f, 1.0f},
+                               .direction = {-0.5f, -0.70710678f, -0.5f},
+                               .color = {2.0f, 2.5f, 3.0f},
+                               .innerCone = 0.3f,
+                               .outerCone = 0.6f});
+    checkScene(*state, &scene, &ground, viewFromAbove());
+}
+
+/// A ball and a cube of glass before a wall and a matt ball of many triangles, seen without the ground.
+static void lightOnAWall(void** state)
+{
+    vtGround ground = sunnyGround();
+    const vtMaterial glass = vtDefaultMaterial(), matt = mattOf((vtVec3){0.3f, 0.25f, 0.2f});
+    vtScene scene = {0};
+    vtFrame frame = viewFromAbove();
+    ground.sunDirection = (vtVec3){0.5f, 0.8f, 1.5f};
+    addBox(&scene, &matt, (vtVec3){1.5f, 1.0f, 0.1f}, (vtVec3){0.0f, 0.0f, -1.2f});
+    addShape(&scene, "sphere", &glass, (vtVec3){0.4f, 0.4f, 0.4f}, (vtVec3){-0.5f, 0.0f, 0.2f});
+    addBox(&scene, &glass, (vtVec3){0.3f, 0.3f, 0.3f}, (vtVec3){0.6f, 0.0f, 0.2f});
+    addShape(&scene, "sphere", &matt, (vtVec3){0.4f, 0.4f, 0.4f}, (vtVec3){-0.6f, -0.5f, -0.6f});
+    frame.view = (vtView){{0.6f, 0.5f, 3.4f}, {0.0f, -0.1f, -1.0f}, 36.0f};
+    checkScene(*state, &scene, &ground, frame);
+}
 #endif
 
 int main(void)
@@ -121,6 +165,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(theGroundBelowABall, setUp, tearDown),
 #ifndef __SANITIZE_ADDRESS__
         cmocka_unit_test_setup_teardown(theGroundBelowAGoblet, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(theGroundByLamps, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(lightOnAWall, setUp, tearDown),
 #endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

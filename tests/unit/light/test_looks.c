@@ -178,7 +178,8 @@ static const char body[] =
     "look.specular)\n"
     "    : field == 4u ? vec4(look.film.x, look.film.y, look.film.z / 1000.0, look.roughness) : field == 5u "
     "? vec4(look.G, look.occlusion)\n"
-    "    : field == 6u ? vec4(sentLight(look, N, I, position), look.ior)\n"
+    "    : field == 6u ? vec4(sentLight(look, N, I, Start(position, I, AIR, -1, VT_NO_TRIANGLE, false, "
+    "false, false), at), look.ior)\n"
     "    : vec4(lookReflectance(look, cosine, fresnel(cosine, 1.0 / ior), ior, (i & 1u) != 0u), "
     "float(look.flags & 7u));\n"
     "  o_result = floatBitsToUint(result); }\n";
@@ -198,7 +199,7 @@ static void fieldsOf(const vtScene* scene, const vtPlacedObject* object, uint32_
     const float side = vtDot(look.G, I) > 0.0f ? -1.0f : 1.0f;
     const vtVec3 N = vtScale(look.G, side);
     const float ior = fmaxf(look.ior, 1.0f), cosine = -vtDot(N, I);
-    const vtVec3 sent = vtLook_SentLight(&look, illumination, N, I, position, exposure);
+    const vtVec3 sent = vtLook_SentLight(&look, illumination, NULL, N, I, position, exposure);
     const vtVec3 F = vtLook_Reflectance(&look, cosine, vtFresnel(cosine, 1.0f / ior), ior, (i & 1) != 0);
     const float flags = (float)((look.thin ? VT_LOOK_THIN : 0u) | (look.unlit ? VT_LOOK_UNLIT : 0u) |
                                 (look.mirror ? VT_LOOK_MIRROR : 0u));
@@ -246,7 +247,7 @@ static void shadersAreTheSame(void** state)
         uploadEnvironment(&gpu, &environment, &lighting);
         uploadCases(&gpu, placed, cases);
         evaluateChunks(&gpu, chunks, sizeof chunks / sizeof chunks[0], fields, &results[0][0][0]);
-        const vtIllumination illumination = {&lighting, scene.lights, scene.lightCount};
+        const vtIllumination illumination = {&lighting, scene.lights, scene.lightCount, NULL};
         int different[fields] = {0};
         for (uint32_t i = 0; i < caseSide * caseSide; ++i) {
             vtPlacedObject object = placed[i % objects];

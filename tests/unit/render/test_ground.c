@@ -3,8 +3,8 @@
 #include "base/optics.h"
 #include "gl/state.h"
 #include "light/ground.h"
+#include "lit_scenes.h"
 #include "render/renderer.h"
-#include "rendering.h"
 
 /// What falls on the ground; nothing but the sun, whose irradiance is 1 1 1.
 static vtGroundMap lightGround(Fixture* fixture, const vtScene* scene, const vtGround* ground, bool fresnel)
@@ -13,6 +13,7 @@ static vtGroundMap lightGround(Fixture* fixture, const vtScene* scene, const vtG
     const uint8_t black[4 * 8] = {0};
     vtEnvironment night;
     vtGroundMap map;
+    vtCausticMap caustics;
     vtError error;
     assert_ok(vtCreateImageEnvironment(black, 4, 2, "night", &night, &error), error);
     assert_ok(vtRenderer_SetScene(renderer, scene, &error), error);
@@ -25,9 +26,10 @@ static vtGroundMap lightGround(Fixture* fixture, const vtScene* scene, const vtG
     const vtGL* gl = &renderer->gl;
     vtTakeState(gl);
     gl->BindVertexArray(renderer->emptyVertexArray);
-    assert_ok(
-        vtGroundPass_MakeMap(&renderer->ground, gl, &renderer->scene, &renderer->environment, &map, &error),
-        error);
+    assert_ok(vtGroundPass_MakeMap(&renderer->ground, gl, &renderer->scene, &renderer->environment, &map,
+                                   &caustics, &error),
+              error);
+    vtDestroyCausticMap(&caustics);
     return map;
 }
 
@@ -164,6 +166,46 @@ static void aBoxShadesWhatItShould(void** state)
     vtDestroyScene(&scene);
 }
 
+/// A box of glass that stands on the ground, the sun above it: what comes through its two faces, and no more.
+/// Shade rays that started within the box would not meet it, and its light would count twice.
+static void aBoxOfGlassIsMetFromBelow(void** state)
+{
+    vtScene scene = makeScene("cube", false);
+    const vtGround ground = groundBelow(NAN, (vtVec3){0.0f, 1.0f, 0.0f});
+    vtGroundMap map = lightGround(*state, &scene, &ground, true);
+    const float F = vtFresnel(1.0f, 1.5f);
+    print_message("below the box %.4f of %.4f\n", (double)lightAt(&map, 0.1f, 0.1f),
+                  (double)((1.0f - F) * (1.0f - F)));
+    assert_true(fabsf(lightAt(&map, 0.1f, 0.1f) - (1.0f - F) * (1.0f - F)) < 0.01f);
+    vtDestroyGroundMap(&map);
+    vtDestroyScene(&scene);
+}
+
+/// A lamp above the middle of a matt ground and a box beside it.
+static void aLampLightsTheGround(void** state)
+{
+    const vtMaterial grey = mattOf((vtVec3){0.5f, 0.5f, 0.5f});
+    vtScene scene = {0};
+    addBox(&scene, &grey, (vtVec3){0.2f, 0.2f, 0.2f}, (vtVec3){1.0f, 0.2f, 0.0f});
+    addLight(&scene,
+             (vtLight){.kind = vt_lightPoint, .position = {0.0f, 1.0f, 0.0f}, .color = {2.0f, 2.0f, 2.0f}});
+    vtGround ground = groundBelow(0.0f, (vtVec3){0.0f, 1.0f, 0.0f});
+    ground.sunColor = (vtVec3){0.0f, 0.0f, 0.0f};
+    ground.matt = true;
+    ground.color = (vtVec3){0.5f, 0.5f, 0.5f};
+    vtGroundMap map = lightGround(*state, &scene, &ground, true);
+    const float places[3] = {0.0f, 0.5f, 1.6f}; // the shadow ends at 1.2 * 0.4 / 0.6 + 1.2 = 2
+    float lights[3];
+    for (int i = 0; i < 3; ++i) {
+        lights[i] = lightAt(&map, places[i], 0.0f);
+        const float far = 1.0f + places[i] * places[i], lit = 0.5f / VT_PI * 2.0f / (far * sqrtf(far));
+        print_message("at %.1f: %.4f of %.4f\n", (double)places[i], (double)lights[i], (double)lit);
+        assert_true(i == 2 ? lights[i] < 1e-3f : fabsf(lights[i] - lit) < 0.02f * lit);
+    }
+    vtDestroyGroundMap(&map);
+    vtDestroyScene(&scene);
+}
+
 static void aSunIsFound(void** state)
 {
     (void)state;
@@ -237,6 +279,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(aBallBringsItsLight, setUp, tearDown),
         cmocka_unit_test_setup_teardown(aBallFocusesWhereItShould, setUp, tearDown),
         cmocka_unit_test_setup_teardown(aBoxShadesWhatItShould, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(aBoxOfGlassIsMetFromBelow, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(aLampLightsTheGround, setUp, tearDown),
         cmocka_unit_test(aSunIsFound),
         cmocka_unit_test_setup_teardown(withoutIntensityNothingIsSeen, setUp, tearDown),
         cmocka_unit_test_setup_teardown(badGroundsAreRefused, setUp, tearDown),
