@@ -371,7 +371,7 @@ static void printLooks(vtTechnique technique, const vtScene* scene)
     }
 }
 
-/// Says that a technique draws no roughness or dispersion, where glass has it, or not in such a scene.
+/// Says that a technique draws no roughness or dispersion, where glass has it.
 static void printGlass(vtTechnique technique, const vtScene* scene, const vtFrame* frame)
 {
     const vtTechniqueRow* row = vtTechnique_Row(technique);
@@ -382,12 +382,6 @@ static void printGlass(vtTechnique technique, const vtScene* scene, const vtFram
         disperses |= !material->opaque && vtMaterial_Dispersion(material, frame->dispersion) > 0.0f;
     }
     disperses &= !row->dispersion;
-    if (rough && row->roughness && vtScene_HasLooks(scene)) {
-        fprintf(stderr,
-                "vitrine: note: technique %s draws no roughness of glass where a material is not plain; "
-                "reference does\n",
-                row->info.id);
-    }
     rough &= !row->roughness;
     if (rough || disperses) {
         fprintf(stderr, "vitrine: note: technique %s draws no %s of glass; reference does\n", row->info.id,

@@ -57,12 +57,19 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
 #ifdef WITH_ROUGH
     float roughness = roughnessOf(hit.object), alpha = roughness * roughness;
     bool isFacet = u_sample.y != 0 && alpha > 0.0;
-    vec3 smoothN = dot(N, I) < 0.0 ? N : G;
-    N = isFacet ? facetNormal(smoothN, I, alpha, chanceOfFacet(p.number, p.events)) : N;
-#endif
+    vec3 smoothN = dot(N, I) < 0.0 ? N : G, chance = chanceOfFacet(p.facets);
+    N = isFacet ? facetNormal(smoothN, I, alpha, chance) : N;
+    p.facets += int(isFacet);
+    bool reflected;
+    vec3 T = meetInterface(I, N, isFacet ? N : G, eta, reflected);
+    float beyond = reflected ? 1.0 : -1.0;
+    T = isFacet ? leaveFacets(T, beyond * smoothN, beyond * G, alpha, chance) : T;
+#else
     bool reflected;
     vec3 T = meetInterface(I, N, G, eta, reflected);
+#endif
 #ifdef WITH_ROUGH
+    vec3 R = isFacet ? leaveFacets(reflect(I, N), smoothN, G, alpha, chance) : reflect(I, N);
     alpha = isFacet ? 0.0 : alpha;
     float c = clamp(-dot(N, I), 0.0, 1.0), curvature = N == G ? 0.0 : 0.5 * (leaving ? -1.0 : 1.0) * (hit.turn[0].x + hit.turn[1].y + hit.turn[2].z);
     vec3 lobe = p.lobe, lobePassed = lobeThrough(lobe, c, eta, curvature, alpha), lobeTurned = lobeMirrored(lobe, c, curvature, alpha);
@@ -86,9 +93,8 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
 #ifndef STRICT
     if (u_scene.z != 0) {
         float F = fresnel(-dot(N, I), eta);
+#ifndef WITH_ROUGH
         vec3 R = reflect(I, N);
-#ifdef WITH_ROUGH
-        R = isFacet ? R - 2.0 * min(dot(R, G), 0.0) * G : R;
 #endif
         R = dot(R, G) > 0.0 ? R : reflect(I, G);
         // What the first surface reflects towards the eye is kept apart: it is never too little to be followed. (Of

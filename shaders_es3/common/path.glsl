@@ -14,7 +14,7 @@ struct Path {
     bool reflected; // total internal reflection took part
 #ifdef WITH_ROUGH
     vec3 lobe;  // rough.glsl
-    int number; // of the paths of a pixel
+    int facets; // that were met by chance, and 64 for each of the pixel's paths before
 #endif
 #ifdef WITH_FOOTPRINT
     Footprint footprint;
@@ -46,15 +46,18 @@ struct Path {
 #endif
 #ifdef WITH_LOOKS
     vec3 light; // that surfaces have sent along it
+#ifdef WITH_ROUGH
+    vec3 seen; // the same of those that are opaque
+#endif
 #endif
 };
 
 #ifdef WITH_ROUGH
 #define NO_LOBE , vec3(0.0)
-#define NO_NUMBER , 0
+#define NO_FACETS , 0
 #else
 #define NO_LOBE
-#define NO_NUMBER
+#define NO_FACETS
 #endif
 #ifdef WITH_FOOTPRINT
 #define AND_FOOTPRINT , footprint
@@ -64,7 +67,7 @@ Path startPath(vec3 position, vec3 direction, Footprint footprint)
 Path startPath(vec3 position, vec3 direction)
 #endif
 {
-    return Path(position, direction, vec3(1.0), 0, false NO_LOBE NO_NUMBER AND_FOOTPRINT
+    return Path(position, direction, vec3(1.0), 0, false NO_LOBE NO_FACETS AND_FOOTPRINT
 #ifndef STRICT
                 , vec3(0.0), position, direction, AIR NO_LOBE, 0, u_eye.w AND_FOOTPRINT
 #endif
@@ -72,7 +75,7 @@ Path startPath(vec3 position, vec3 direction)
                 , position, direction, FIRST_SHARE(0.0) NO_LOBE AND_FOOTPRINT
 #endif
 #ifdef WITH_LOOKS
-                , vec3(0.0)
+                , vec3(0.0) NO_LOBE
 #endif
                 );
 }

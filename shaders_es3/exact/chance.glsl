@@ -26,14 +26,15 @@ float chanceOf(int round)
 }
 
 #ifdef WITH_ROUGH
-// Two numbers for the facet that the sample's path `number` meets after so many events: of its first two they are spread
-// evenly over the samples, by steps of the root of x^5 = x + 1.
-vec2 chanceOfFacet(int number, int events)
+// Numbers for the facet that the sample meets, by path.glsl's count: of its first two the first two are spread evenly over
+// the samples, by steps of the root of x^5 = x + 1.
+vec3 chanceOfFacet(int facet)
 {
-    bool isSpread = number == 0 && events < 2;
-    uint use = 0x10000u + uint(64 * number + events);
-    vec2 shift = mixedNumbers(uvec3(gl_FragCoord.xy, use + (isSpread ? 0u : 0x100000u * uint(u_sample.x)))).xy;
-    vec2 steps = events == 0 ? vec2(0.85667488, 0.73389185) : vec2(0.62870672, 0.53859726);
-    return fract(shift + (isSpread ? fract(float(u_sample.x) * steps) : vec2(0.0)));
+    bool isSpread = facet < 2;
+    uint use = 0x10000u + uint(facet);
+    uint sampled = 0x100000u * uint(u_sample.x);
+    vec3 number = mixedNumbers(uvec3(gl_FragCoord.xy, use + (isSpread ? 0u : sampled)));
+    vec2 steps = facet == 0 ? vec2(0.85667488, 0.73389185) : vec2(0.62870672, 0.53859726);
+    return fract(number + (isSpread ? fract(float(u_sample.x) * vec3(steps, 0.43359780)) : vec3(0.0)));
 }
 #endif

@@ -22,6 +22,10 @@ struct End {
 #ifdef WITH_PHOTONS
     bool isBent; // it has come through something
 #endif
+#ifdef SPREADS
+    vec3 from, share; // where its last way begins, and the light that there is of it there
+    bool isInAir;     // what that leads through
+#endif
 };
 
 // Light that left a path is followed always where its share is at least this; less of it with a chance, where chance
@@ -29,19 +33,31 @@ struct End {
 const float SURE_BRANCH = 0.05;
 const int MOST_PATHS = 64; // of a pixel, where chance chooses: they end long before
 
-#ifdef WITH_SHADE
-#define IN_AIR , AIR
-#elif defined(WITH_PHOTONS) // never both
-#define IN_AIR , false
-#else
-#define IN_AIR
-#endif
 const Meeting NO_MEETING = Meeting(NOWHERE, VT_NO_TRIANGLE, vec2(0.0), -1, -1);
+
+End noEnd(int status)
+{
+    End end;
+    end.status = status;
+    end.meeting = NO_MEETING;
+#ifdef WITH_SHADE
+    end.media = AIR;
+#endif
+#ifdef WITH_PHOTONS
+    end.isBent = false;
+#endif
+#ifdef SPREADS
+    end.from = vec3(0.0);
+    end.share = vec3(0.0);
+    end.isInAir = false;
+#endif
+    return end;
+}
 
 // isFresh: the path begins at the eye. isDirect: glass does not count, only what is opaque.
 End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
 {
-    End end = End(VT_PATH_LOST, NO_MEETING IN_AIR);
+    End end = noEnd(VT_PATH_LOST);
 #ifdef WITH_DEPTH
     float depth = 0.0;
 #endif
@@ -82,8 +98,16 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
 #ifdef WITH_SHADE
         end.media = start.media;
 #endif
+#ifdef SPREADS
+        end.from = p.position;
+        end.share = p.transmittance;
+        end.isInAir = start.media == AIR;
+#endif
         if (isOpaque) {
             absorb(p, start.media, met.distance);
+#ifdef SPREADS
+            p.lobe = lobeAfter(p.lobe, met.distance);
+#endif
         }
         p.position += isMet ? met.distance * p.direction : vec3(0.0);
 #ifdef WITH_FOOTPRINT
@@ -92,10 +116,16 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
 #ifdef WITH_LOOKS
         if (more) {
             absorb(p, start.media, met.distance);
+#ifdef WITH_ROUGH
+            p.lobe = lobeAfter(p.lobe, met.distance);
+#endif
             media = start.media;
             SurfaceHit hit = meetingSurface(met, p.position);
 #ifdef WITH_FOOTPRINT
             float width = footprintWidth(p.footprint.place - outerProduct(p.direction, p.direction * p.footprint.place));
+#ifdef WITH_ROUGH
+            width = lobeWidth(width, p.lobe.x);
+#endif
 #else
             const float width = 0.0; // there are no pictures
 #endif
@@ -150,10 +180,16 @@ vec3 lightAlong(Path p, End end)
     width = footprintWidth(p.footprint.direction);
 #endif
 #ifdef WITH_ROUGH
-    vec3 light = p.lobe.z > 0.0 ? specularLight(p.direction, lobeRoughness(p.lobe), width) : surroundings(p.position, p.direction, width);
+    vec3 light = specularLight(p.direction, lobeRoughness(p.lobe), width);
 #ifdef WITH_SHADE
-    light += p.lobe.z > 0.0 ? u_sun[3].rgb * sunGlare(u_sun[2], p.direction, lobeRoughness(p.lobe)) : vec3(0.0);
+    light += u_sun[3].rgb * sunGlare(u_sun[2], p.direction, lobeRoughness(p.lobe));
 #endif
+#ifdef WITH_GROUND
+    light = groundLight(p.position, p.direction, light);
+#endif
+    if (p.lobe.z <= 0.0) {
+        light = surroundings(p.position, p.direction, width);
+    }
 #else
     vec3 light = surroundings(p.position, p.direction, width); // a lost path sees it, too
 #endif
@@ -177,11 +213,26 @@ vec3 lightAlong(Path p, End end)
         at.corner = opaque.at;
 #endif
 #ifdef WITH_FOOTPRINT
+#ifdef WITH_ROUGH
+        p.footprint = lobeFootprint(p.footprint, p.direction, p.lobe);
+#endif
         light = shadeOpaque(opaque.object, at, p.direction, p.footprint);
 #else
         light = shadeOpaque(opaque.object, at, p.direction, 0.0); // no picture is seen
 #endif
     }
+#endif
+    return light;
+}
+
+vec3 lightOfEnd(Path p, End end)
+{
+#ifdef WITH_LOOKS
+    p.transmittance *= end.status == VT_PATH_OPAQUE ? 0.0 : 1.0; // all its light is there
+#endif
+    vec3 light = p.transmittance * lightAlong(p, end);
+#if defined(WITH_LOOKS) && defined(SPREADS)
+    light += p.seen;
 #endif
     return light;
 }
@@ -214,7 +265,7 @@ vec3 lightOfPixel(out int status)
     End end = followPath(p, AIR, true, false);
     o_path = uvec4(floatBitsToUint(p.direction), pathState(p, end.status));
     status = end.status;
-    return p.transmittance * lightAlong(p, end);
+    return lightOfEnd(p, end);
 #else
     Media media = AIR;
     vec3 light = vec3(0.0);
@@ -231,18 +282,35 @@ vec3 lightOfPixel(out int status)
     vec3 firstPosition = vec3(0.0), firstDirection = vec3(1.0, 0.0, 0.0), firstLight = vec3(0.0);
     for (int i = 0; i < MOST_PATHS; ++i) {
         bool isOwn = i == 0;
-        End end = End(VT_PATH_EXITED, NO_MEETING IN_AIR);
+        End end = noEnd(VT_PATH_EXITED);
+#ifdef SPREADS
+        Beam beam = Beam(false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+        for (int ray = 0; ray <= LOBE_RAYS; ++ray) {
+            End met = followPath(p, media, isOwn && ray == 0, isDirect || ray > 0);
+            if (ray == 0) {
+                end.status = met.status;
+                beam = beamOf(p, met.from, met.share, !byChance && met.isInAir);
+                p.lobe *= beam.isSpread ? LOBE_PART : 1.0;
+            }
+            light += lightOfEnd(p, met) / (beam.isSpread ? float(LOBE_RAYS + 1) : 1.0);
+            if (!beam.isSpread) {
+                break;
+            }
+            turnAside(p, beam, ray + 1);
+        }
+        p.direction = beam.ahead;
+#else
 #ifndef WITH_OPAQUE // a direct ray meets nothing
         if (!isDirect)
 #endif
         {
             end = followPath(p, media, isOwn, isDirect);
         }
+        light += lightOfEnd(p, end);
+#endif
 #ifdef WITH_LOOKS
-        p.transmittance *= end.status == VT_PATH_OPAQUE ? 0.0 : 1.0; // all its light is there
         light += p.light;
 #endif
-        light += p.transmittance * lightAlong(p, end);
         if (isOwn) {
             status = end.status;
             path = uvec4(floatBitsToUint(p.direction), pathState(p, status));
@@ -274,7 +342,7 @@ vec3 lightOfPixel(out int status)
         p.transmittance = next;
 #ifdef WITH_ROUGH
         p.lobe = lobe;
-        p.number = i + 1;
+        p.facets = 64 * (i + 1);
 #endif
         p.choice = byChance ? chanceOf(i + 1) : -1.0;
         p.events = events; // it met the surface that it left the path at

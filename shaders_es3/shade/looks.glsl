@@ -148,8 +148,7 @@ Look lookAt(Meeting met, SurfaceHit surface, float footprint)
     look.G = surface.flatNormal;
     look.N = surface.normal;
     look.base = vec4(color.rgb, alphas.x) * corner.color * readMap(material, 0, corner, footprint, size);
-    vec2 square = floor(scales.z * corner.at.xy);
-    look.base.rgb *= 2.0 * fract(0.5 * (square.x + square.y)) > 0.5 ? 0.15 : 1.0; // odd
+    look.base.rgb *= checkerShare(scales.z, corner.at.xy, footprint * sqrt(corner.area.x / max(size, 1e-30)));
     look.base.a = alphas.y > 0.0 ? (look.base.a < alphas.y ? 0.0 : 1.0) : (flags.x & VT_LOOK_BLEND) != 0u ? look.base.a : 1.0;
     vec4 share = readMap(material, 1, corner, footprint, size);
     look.metallic = color.w * share.b;

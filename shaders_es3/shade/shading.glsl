@@ -51,6 +51,23 @@ float imageLevel(float footprint, float areaOfTexture, float area)
     return log2(max(texels, 1.0));
 }
 
+// How bright the squares of a checker are there, 1 and 0.15: the mean over `width` of texture coordinates. So many squares
+// a unit; 0: there is none.
+float checkerShare(float squares, vec2 at, float width)
+{
+    at *= squares;
+#ifdef WITH_ROUGH
+    // The square wave of each axis, integrated.
+    width = max(squares * width, 1e-3);
+    vec2 low = 2.0 * fract(0.5 * (at - 0.5 * width)), high = 2.0 * fract(0.5 * (at + 0.5 * width));
+    vec2 mean = (abs(low - 1.0) - abs(high - 1.0)) / width;
+    return mix(1.0, 0.575 + 0.425 * mean.x * mean.y, step(1e-6, squares));
+#else
+    vec2 square = floor(at);
+    return 2.0 * fract(0.5 * (square.x + square.y)) > 0.5 ? 0.15 : 1.0; // odd
+#endif
+}
+
 // The share of light about the mirror direction that is reflected. F0, F90: of a smooth surface straight on and along it.
 vec3 reflectedShare(vec3 F0, float F90, float roughness, float cosine)
 {
@@ -146,10 +163,7 @@ vec3 shadeOpaque(int object, OpaqueSurface at, vec3 I, float footprint)
 #endif
     float level = imageLevel(footprint, at.areaOfTexture, at.area);
     vec3 base = objectNumbers(object, VT_OBJECT_COLOR).rgb * readImage(images.x, at.at, level) * at.color;
-    vec2 square = floor(surface.z * at.at);
-    if (2.0 * fract(0.5 * (square.x + square.y)) > 0.5) { // odd
-        base *= 0.15;
-    }
+    base *= checkerShare(surface.z, at.at, footprint * sqrt(at.areaOfTexture / max(at.area, 1e-30)));
     vec3 share = readImage(images.y, at.at, level);
     float metallic = surface.x * share.b, roughness = surface.y * share.g;
 

@@ -60,8 +60,7 @@ static const vtGltfFeature features[] = {
          "level, without roll; only by techniques that peel no layers"),
     CORE("buffers, pictures in files", vt_gltfDrawn, "in the model's folder, or in that of --root"),
     CORE("base colour, metallic, roughness", vt_gltfApproximated,
-         "with their pictures, of glass too, whose roughness `reference` draws, and `exact` where all "
-         "materials are plain"),
+         "with their pictures, of glass too, whose roughness `exact`, `heightfield` and `reference` draw"),
     CORE("vertex colours", vt_gltfDrawn, "COLOR_0, with its alpha"),
     CORE("normal maps", vt_gltfDrawn,
          "by the file's tangents, or computed ones; reflections follow them, too"),

@@ -165,7 +165,7 @@ static vtVec3 least1(vtVec3 v)
 }
 
 vtLook vtLookAt(const vtScene* scene, const vtPlacedObject* object, uint32_t triangle, float u, float v,
-                float ior)
+                float ior, float roughness)
 {
     const vtMesh* mesh = object->mesh;
     const vtMaterial* m = object->material;
@@ -191,7 +191,7 @@ vtLook vtLookAt(const vtScene* scene, const vtPlacedObject* object, uint32_t tri
         .specularColor = vtMultiply(m->specularColor, (vtVec3){glossy.r, glossy.g, glossy.b}),
         .specular = m->specular * readMap(scene, m, vt_mapSpecular, at).a,
         .metallic = m->metallic * share.b,
-        .roughness = vtMaterial_Roughness(m, -1.0f) * share.g,
+        .roughness = vtMaterial_Roughness(m, roughness) * share.g,
         .occlusion = 1.0f + m->occlusionStrength * (readMap(scene, m, vt_mapOcclusion, at).r - 1.0f),
         .film = m->iridescence * readMap(scene, m, vt_mapIridescence, at).r,
         .filmIor = m->iridescenceIor,

@@ -39,9 +39,10 @@ typedef struct vtShadows {
 } vtShadows;
 
 /// At the point of `triangle` with weights u and v of its second and third corner. Pictures are read at full
-/// size; the shader reads them averaged over a pixel. `ior`: of the object's glass.
+/// size; the shader reads them averaged over a pixel. `ior`: of the object's glass;
+/// `roughness`: of all glass, times the picture of it; below 0: the material's own.
 vtLook vtLookAt(const vtScene* scene, const vtPlacedObject* object, uint32_t triangle, float u, float v,
-                float ior);
+                float ior, float roughness);
 
 /// What the surface reflects of light that meets it at that cosine; `exact`: vtFresnel there; `ior`: of the
 /// side that is denser over the other. `fromInside`: films are not seen from there.

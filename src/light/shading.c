@@ -7,7 +7,7 @@
 vtVec3 vtShadeSurface(const vtScene* scene, const vtPlacedObject* object, const vtLighting* lighting,
                       uint32_t triangle, float u, float v, vtVec3 I)
 {
-    const vtLook look = vtLookAt(scene, object, triangle, u, v, vtMaterial_Index(object->material));
+    const vtLook look = vtLookAt(scene, object, triangle, u, v, vtMaterial_Index(object->material), -1.0f);
     vtVec3 p[3];
     vtMesh_Corners(object->mesh, triangle, p);
     const vtVec3 position = vtTransformPoint(&object->toWorld, vtBlend(p, u, v));

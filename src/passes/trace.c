@@ -8,7 +8,7 @@
 bool vtTrace_IsRough(const vtSceneBuffer* scene, const vtFrame* frame)
 {
     bool rough = false;
-    for (uint32_t i = 0; i < scene->glassCount && !scene->hasLooks; ++i) {
+    for (uint32_t i = 0; i < scene->glassCount; ++i) {
         rough = rough || vtMaterial_Roughness(&scene->objects[i].material, frame->roughness) > 0.0f;
     }
     return rough && vtTechnique_Row(frame->technique)->traces;
@@ -43,7 +43,7 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironm
            (one ? vt_traceOneObject : 0) | (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
            (vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? vt_traceHost : 0) |
            (any && only ? vt_traceOnlyHeights : 0) |
-           (vtFrame_IsStrict(frame) && !looks ? vt_traceStrict : 0) |
+           (vtFrame_IsStrict(frame) && !looks && !rough ? vt_traceStrict : 0) |
            (opaque && scene->lightCount > 0 ? vt_traceShade : 0) | (frame->countReads ? vt_traceCounted : 0);
 }
 
@@ -76,7 +76,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         &vtChunk_environment,
         &vtChunk_objects,
         &vtChunk_optics,
-        strict && !rough && !spectral && !shade ? NULL : &vtChunk_chance,
+        strict && !spectral && !shade ? NULL : &vtChunk_chance,
         spectral ? &vtChunk_spectral : NULL,
         rough ? &vtChunk_rough : NULL,
         &vtChunk_cross_surface,

@@ -125,10 +125,8 @@ static void look(const vtReference* reference, const vtPathRules* rules, vtRefer
         lookAtPlain(rules, object, hit, seen);
         return;
     }
-    *seen = vtLookAt(reference->scene, object, hit->triangle, hit->u, hit->v, iorOf(rules, object));
-    if (rules->roughness >= 0.0f && !object->material->opaque) {
-        seen->roughness = rules->roughness;
-    }
+    *seen = vtLookAt(reference->scene, object, hit->triangle, hit->u, hit->v, iorOf(rules, object),
+                     rules->roughness);
     if (rules->illumination != NULL && !path->mirrored) { // else it is there already
         const vtVec3 I = path->direction;
         const float side = vtDot(seen->G, I) > 0.0f ? -1.0f : 1.0f;

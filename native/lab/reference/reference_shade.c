@@ -38,7 +38,7 @@ static vtVec3 passedBy(const vtShadeRays* rays, const vtPlace* place, vtVec3 L)
     const float eta = surface->object->thin ? own : indexOf(rays, after) / indexOf(rays, before);
     const float ior = fmaxf(eta, 1.0f / eta);
     const vtSurfaceHit* hit = surface->hit;
-    const vtLook look = vtLookAt(rays->reference->scene, surface->object, hit->triangle, hit->u, hit->v, ior);
+    const vtLook look = vtLookAt(rays->reference->scene, surface->object, hit->triangle, hit->u, hit->v, ior, -1.0f);
     vtVec3 through = all;
     if (surface->object->thin || before != after) {
         const float cosine = fabsf(vtDot(look.N, L));
@@ -56,7 +56,7 @@ static vtVec3 passedByOpaque(const vtShadeRays* rays, const vtSurfaceHit* hit)
     if (object->plain) {
         return none;
     }
-    const vtLook look = vtLookAt(rays->reference->scene, object, hit->triangle, hit->u, hit->v, 1.0f);
+    const vtLook look = vtLookAt(rays->reference->scene, object, hit->triangle, hit->u, hit->v, 1.0f, -1.0f);
     return vtScale(all, 1.0f - look.coverage);
 }
 

@@ -195,7 +195,7 @@ static void fieldsOf(const vtScene* scene, const vtPlacedObject* object, uint32_
     vtVec3 p[3];
     vtMesh_Corners(object->mesh, triangle, p);
     const vtVec3 position = vtTransformPoint(&object->toWorld, vtBlend(p, u, v));
-    const vtLook look = vtLookAt(scene, object, triangle, u, v, vtMaterial_Index(object->material));
+    const vtLook look = vtLookAt(scene, object, triangle, u, v, vtMaterial_Index(object->material), -1.0f);
     const float side = vtDot(look.G, I) > 0.0f ? -1.0f : 1.0f;
     const vtVec3 N = vtScale(look.G, side);
     const float ior = fmaxf(look.ior, 1.0f), cosine = -vtDot(N, I);

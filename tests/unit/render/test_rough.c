@@ -155,13 +155,168 @@ static void wavelengthsSumToWhite(void** state)
     }
 }
 
+static void addShape(vtScene* scene, const char* shape, const vtMaterial* material, const vtTransform* place)
+{
+    vtError error;
+    vtMesh mesh;
+    vtScene one;
+    assert_ok(vtCreateShape(shape, &mesh, &error), error);
+    assert_ok(vtCreateMeshScene(&mesh, material, &one, &error), error);
+    assert_ok(vtScene_Append(scene, &one, place, &error), error);
+}
+
+/// Largest step of light between neighbours along the middle row.
+static float largestStep(Fixture* fixture, const vtFrame* frame)
+{
+    drawShape(fixture, frame);
+    float step = 0.0f;
+    for (int x = 1; x < frame->width; ++x) {
+        const uint8_t* pixel = fixture->pixels + 4 * (frame->height / 2 * frame->width + x);
+        step = fmaxf(step, fabsf(linearOf(pixel[0]) - linearOf(pixel[-4])));
+    }
+    return step;
+}
+
+// The edge of something black behind a frosted pane, a wall without thickness or a body, has no sharp edge in
+// one sample.
+static void edgesBehindFrostAreSoft(void** state)
+{
+    Fixture* fixture = *state;
+    setWhite(fixture);
+    for (int thin = 0; thin < 2; ++thin) {
+        vtMaterial black = vtDefaultMaterial(), pane = vtDefaultMaterial();
+        black.opaque = true;
+        black.baseColor = (vtVec3){0.0f, 0.0f, 0.0f};
+        pane.thin = thin != 0;
+        const vtTransform right = {{{1, 0, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, -1}}};
+        const vtTransform flat = {{{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 0.05f, 0}}};
+        vtScene scene = {0};
+        vtError error;
+        addShape(&scene, "cube", &pane, &flat);
+        addShape(&scene, "plane", &black, &right);
+        assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
+        vtDestroyScene(&scene);
+        vtFrame frame = smallFrame(vt_techniqueExact);
+        frame.width = frame.height = 48;
+        frame.exposure = -1.0f;
+        frame.view = (vtView){{0.0f, 0.0f, 4.0f}, {0.0f, 0.0f, 0.0f}, 25.0f};
+        const float sharp = largestStep(fixture, &frame);
+        frame.roughness = 0.3f;
+        const float soft = largestStep(fixture, &frame);
+        print_message("  largest step: %.3f, frosted %.3f\n", (double)sharp, (double)soft);
+        assert_true(sharp > 0.3f && soft < 0.5f * sharp);
+    }
+}
+
+// ------------------------------------------------------------------------------- beside the reference
+
+enum { small = 32, block = 4, blocks = small / block };
+
+/// Means of linear light over blocks of pixels: noise goes, scattering stays.
+typedef struct Means {
+    float light[blocks * blocks][3];
+} Means;
+
+static void addPixel(Means* means, int at, const float light[3])
+{
+    float* to = means->light[at / small / block * blocks + at % small / block];
+    for (int c = 0; c < 3; ++c) {
+        to[c] += fminf(light[c], 1.0f) / (block * block);
+    }
+}
+
+static float apart(const Means* a, const Means* b)
+{
+    double sum = 0.0;
+    for (int i = 0; i < 3 * blocks * blocks; ++i) {
+        sum += fabs((double)a->light[i / 3][i % 3] - (double)b->light[i / 3][i % 3]);
+    }
+    return (float)(sum / (3 * blocks * blocks));
+}
+
+static void traceMeans(vtScene* scene, const vtFrame* frame, Means* means)
+{
+    vtReference* reference;
+    vtReferenceImage image;
+    vtEnvironment environment;
+    vtError error;
+    assert_ok(vtCreateEnvironment("checker", &environment, &error), error);
+    if (vtCreateReference(scene, &reference, &error) != vt_ok) {
+        print_message("skipped: %s\n", error.message);
+        vtDestroyScene(scene);
+        skip();
+    }
+    const vtReferenceDef def = {
+        .frame = frame, .environment = &environment, .samples = 128, .fresnel = true, .onlyPicture = true};
+    assert_ok(vtReference_Trace(reference, &def, &image, &error), error);
+    *means = (Means){{{0.0f}}};
+    for (int at = 0; at < small * small; ++at) {
+        addPixel(means, at, image.radiance + 3 * at);
+    }
+    vtDestroyReferenceImage(&image);
+    vtDestroyReference(reference);
+}
+
+static void drawMeans(Fixture* fixture, const vtFrame* frame, Means* means)
+{
+    drawShape(fixture, frame);
+    *means = (Means){{{0.0f}}};
+    for (int at = 0; at < small * small; ++at) {
+        const uint8_t* pixel = fixture->pixels + 4 * at;
+        addPixel(means, at, (float[]){linearOf(pixel[0]), linearOf(pixel[1]), linearOf(pixel[2])});
+    }
+}
+
+// What the reference traces by other code: a scattering wall without thickness, one of which a half is not
+// there, and a body whose picture makes it smooth on one side and rough on the other.
+static void roughLooksAreAsTraced(void** state)
+{
+    Fixture* fixture = *state;
+    setEnvironment(fixture->renderer, "checker");
+    for (int kind = 0; kind < 3; ++kind) {
+        vtMaterial material = vtDefaultMaterial();
+        vtMesh mesh;
+        vtError error;
+        vtScene scene;
+        material.roughness = kind == 0 ? 1.0f : 0.5f;
+        material.thin = kind < 2;
+        material.alphaMode = kind == 1 ? vt_alphaBlend : vt_alphaOpaque;
+        material.alpha = 0.5f;
+        material.maps[vt_mapMetallicRoughness].image = kind == 2 ? 0 : -1;
+        assert_ok(vtCreateShape(kind == 2 ? "cube" : "sphere", &mesh, &error), error);
+        assert_ok(vtCreateMeshScene(&mesh, &material, &scene, &error), error);
+        scene.images = calloc(1, sizeof *scene.images);
+        scene.imageCount = 1;
+        scene.images[0] = (vtImage){.pixels = malloc(8), .width = 2, .height = 1, .linear = true};
+        memcpy(scene.images[0].pixels, (const uint8_t[]){255, 0, 0, 255, 255, 255, 0, 255}, 8);
+        assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
+        assert_ok(vtRenderer_SetImages(fixture->renderer, scene.images, 1, &error), error);
+        vtFrame frame = smallFrame(vt_techniqueExact);
+        frame.width = frame.height = small;
+        frame.fresnel = true;
+        frame.ior = 0.0f;
+        Means truth, lobe, mean, smooth;
+        traceMeans(&scene, &frame, &truth);
+        drawMeans(fixture, &frame, &lobe);
+        frame.samples = 96;
+        drawMeans(fixture, &frame, &mean);
+        frame.roughness = 0.0f;
+        drawMeans(fixture, &frame, &smooth);
+        print_message("  from the reference: lobe %.4f, mean %.4f, smooth %.4f\n",
+                      (double)apart(&lobe, &truth), (double)apart(&mean, &truth),
+                      (double)apart(&smooth, &truth));
+        assert_true(apart(&mean, &truth) < 0.006f && apart(&smooth, &truth) > 0.018f);
+        assert_true(apart(&lobe, &truth) < 0.95f * apart(&smooth, &truth));
+        vtDestroyScene(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothingIsLostInAFurnace),
-        cmocka_unit_test(indexOneIsNoFog),
-        cmocka_unit_test(littleRoughnessIsSmooth),
-        cmocka_unit_test(wavelengthsSumToWhite),
+        cmocka_unit_test(nothingIsLostInAFurnace), cmocka_unit_test(indexOneIsNoFog),
+        cmocka_unit_test(littleRoughnessIsSmooth), cmocka_unit_test(wavelengthsSumToWhite),
+        cmocka_unit_test(edgesBehindFrostAreSoft), cmocka_unit_test(roughLooksAreAsTraced),
     };
     return cmocka_run_group_tests(tests, setUp, tearDown);
 }
