@@ -26,7 +26,7 @@ const events = [
   {
     name: 'render-scale',
     detail:
-      '{ reportedDpr: number; renderedDpr: number; minimumDpr: number; pixelWidth: number; pixelHeight: number; preset: string; layers: number; steps: number; maxEvents: number; reason: string }',
+      '{ reportedDpr: number; renderedDpr: number; minimumDpr: number; pixelWidth: number; pixelHeight: number; preset: string; layers: number; steps: number; maxEvents: number; branches: number; wavelengths: number; reason: string }',
     description: 'The quality in force has changed; what the preset decides as it decided.',
   },
 ];
@@ -95,8 +95,8 @@ export declare class VitrineViewer extends HTMLElement {
   static wasmBinary: ArrayBuffer | Uint8Array | null;
   /** What vitrine-shaders.txt has in it, where that is not to be fetched either. Set before the first element. */
   static laterShaders: string | null;
-  /** What all elements of the page hold, and what of the files they show is left out or changed. */
-  static statistics: () => Promise<{ contexts: number; heapBytes: number; warnings: string[] }>;
+  /** What all elements of the page hold, what of the files they show is left out or changed, and of those that move and are drawn in less than full quality the detail of render-scale. */
+  static statistics: () => Promise<{ contexts: number; heapBytes: number; warnings: string[]; lessened: VitrineViewerEventMap['render-scale']['detail'][] }>;
 ${attributes.map((row) => `  /** ${row.description} Default: ${defaultOf(row) || 'empty'}. */\n  ${row.property}: ${typeOf(row)};`).join('\n')}
 ${properties.map(({ name, type, description }) => `  /** ${description} */\n  readonly ${name}: ${type};`).join('\n')}
 ${methods.map(({ signature, description }) => `  /** ${description} */\n  ${signature};`).join('\n')}

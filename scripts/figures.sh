@@ -10,7 +10,7 @@ bunny=""
 [ "${1:-}" = --models ] && bunny="$2/bunny_69666.glb"
 
 bash scripts/gallery.sh "$pictures"
-rm -f "$pictures"/{bottle,torus,sphere}.png
+rm -f "$pictures"/{torus,sphere}.png
 
 for id in kay-linear kay-nonlinear kay-thickness single wyman oliveira layered exact reference; do
   "$vitrine" render knot -t "$id" -e sky -r 320,320 -o "$pictures/technique-$id.png"

@@ -1,7 +1,7 @@
 // Writes binary glTF 2.0: what the demo's models and the tests' are made with.
 
-/** glTF as JSON and data of positions and indices, 16 bits where they suffice. @param {{positions: number[], indices: number[], ior?: number}} mesh flat lists @param {string} [uri] of the data, in a file of its own */
-export function gltf({ positions, indices, ior }, uri) {
+/** glTF as JSON and data of positions and indices, 16 bits where they suffice. @param {{positions: number[], normals?: number[], indices: number[], ior?: number}} mesh flat lists @param {string} [uri] of the data, in a file of its own */
+export function gltf({ positions, normals, indices, ior }, uri) {
   const points = Buffer.from(new Float32Array(positions).buffer);
   const isSmall = positions.length / 3 <= 65535 && indices.every((index) => index <= 65535);
   const corners = Buffer.from((isSmall ? new Uint16Array(indices) : new Uint32Array(indices)).buffer);
@@ -25,12 +25,21 @@ export function gltf({ positions, indices, ior }, uri) {
     scenes: [{ nodes: [0] }],
     scene: 0,
   };
+  const parts = [points, corners];
+  if (normals !== undefined) {
+    const byteOffset = points.length + corners.length + ((4 - (corners.length % 4)) % 4);
+    parts.push(Buffer.alloc(byteOffset - points.length - corners.length), Buffer.from(new Float32Array(normals).buffer));
+    json.buffers[0].byteLength = byteOffset + points.length;
+    json.bufferViews.push({ buffer: 0, byteOffset, byteLength: points.length });
+    json.accessors.push({ bufferView: 2, componentType: 5126, count: positions.length / 3, type: 'VEC3' });
+    json.meshes[0].primitives[0].attributes.NORMAL = 2;
+  }
   if (ior !== undefined) {
     json.extensionsUsed = ['KHR_materials_ior'];
     json.materials = [{ extensions: { KHR_materials_ior: { ior } } }];
     json.meshes[0].primitives[0].material = 0;
   }
-  return { json, bin: Buffer.concat([points, corners]) };
+  return { json, bin: Buffer.concat(parts) };
 }
 
 /** The file of what gltf returns, changed or not. @returns {Buffer} */

@@ -665,6 +665,7 @@ typedef enum vtOutput {
 /// | linear steps          | 25  | 50     | 100  |
 /// | events                | 4   | 8      | 8    |
 /// | exact: branches       | 0   | 1      | 2    |
+/// | exact: wavelengths    | 1   | 3      | 3    |
 typedef enum vtPreset { vt_presetLow = 0, vt_presetMedium, vt_presetHigh, vt_presetCount } vtPreset;
 
 /// "low", "medium", "high"; NULL past the end.
@@ -713,6 +714,10 @@ typedef struct vtFrame {
     /// sample a part of it); what leaves the last of them comes from the environment. -1: never; 0, the
     /// default: the preset's
     int branches;
+    /// exact, glass that disperses: paths of the first sample of a pixel, 1 to VT_MAX_WAVELENGTHS. 3: red,
+    /// green and blue; 2: red, and the other two together; 1: all three together, without fringes. The
+    /// other samples have 3. 0, the default: the preset's
+    int wavelengths;
     vtMulti multi;   ///< layered, several objects; default vt_multiAny
     vtSearch search; ///< layered; default vt_searchSteps
     vtPreset preset; ///< of the settings that are 0; default vt_presetMedium

@@ -6,6 +6,7 @@
 #define VT_MAX_REFINE 32
 #define VT_MAX_EVENTS 64
 #define VT_MAX_BRANCHES 4
+#define VT_MAX_WAVELENGTHS 3
 #define VT_MAX_OBJECTS 4096
 
 // What became of a path: the lowest byte of its state.

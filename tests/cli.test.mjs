@@ -1198,6 +1198,20 @@ describe('glTF files', () => {
     assert.equal(vitrine(['render', broken, '--animation', 'none', ...small, '-o', 'broken.png']).code, 0);
   });
 
+  test("the gallery's models are closed, and nothing is to be said of them", () => {
+    const models = join(folder, 'gallery');
+    const { status, stderr } = spawnSync(process.execPath, [join(here, '../scripts/gallery-models.mjs'), models], { encoding: 'utf8' });
+    assert.equal(status, 0, stderr);
+    const names = readdirSync(models).sort();
+    assert.deepEqual(names, ['cap.glb', 'collar.glb', 'flacon.glb', 'liquid.glb', 'ring.glb', 'wine.glb']);
+    for (const name of names) {
+      const { objects, notes } = JSON.parse(vitrine(['inspect', join(models, name), '--json']).text);
+      assert.deepEqual([objects.length, objects[0].openEdges, notes], [1, 0, []], name);
+      const { code, error } = vitrine(['render', '--object', `${join(models, name)}:ior=1.5`, ...small, '-o', 'gallery.png']);
+      assert.deepEqual([code, error], [0, ''], name);
+    }
+  });
+
   test('docs/gltf.md has the list of what is drawn', () => {
     const page = readFileSync(join(here, '../docs/gltf.md'), 'utf8');
     const [, table] = page.split('<!-- gltf -->\n\n');

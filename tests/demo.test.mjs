@@ -163,6 +163,8 @@ describe('the demo page', { skip }, () => {
     await changes('tone', 3);
     await page.locator('#backdrop').uncheck();
     await changes('backdrop', 3);
+    await page.locator('#ground').check(); // beyond the clip; the element's tests look at it
+    assert.equal(await page.getAttribute('vitrine-viewer', 'ground'), '');
     await page.selectOption('#technique', 'single');
     await changes('technique');
     assert.ok(await page.isDisabled('#layers'), 'a slider that the technique does not heed');
@@ -171,7 +173,7 @@ describe('the demo page', { skip }, () => {
     await page.locator('#theme input[value=light]').check();
     await changes('theme', 10);
     assert.deepEqual(await query(page), {
-      model: 'goblet', environment: 'checker', backdrop: '0', technique: 'single', ior: '1.2', layers: '4', steps: '3', events: '2',
+      model: 'goblet', environment: 'checker', backdrop: '0', ground: '1', technique: 'single', ior: '1.2', layers: '4', steps: '3', events: '2',
       quality: 'low', exposure: '1', tone: 'agx', fov: '30', theme: 'light',
     });
 

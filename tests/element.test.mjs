@@ -513,6 +513,34 @@ describe('the element', { skip }, () => {
     assert.ok(darker > 100, `${darker} pixels of the page lie in shadow`);
   });
 
+  test('a matt ground and a sun are those of the native program, and what they cannot be gives a sentence', async (t) => {
+    const page = await open(t, `<vitrine-viewer id="a" src="sphere" skybox-image="studio" ground ground-color="0.5,0.4,0.3" sun="-1,1,-0.5,2,6,5,4" camera-orbit="0deg 60deg 6m" camera-target="0m 0m 0m"></vitrine-viewer>${ofSide}`);
+    const lit = await picture(page);
+    const view = ['sphere', '-e', 'studio', '--camera', '0,3,5.19615', '--target', '0,0,0', '--ground', '--ground-color', '0.5,0.4,0.3'];
+    const differing = difference(lit, nativePicture(...view, '--sun', '-1,1,-0.5,2,6,5,4'));
+    t.diagnostic(`${differing.toFixed(3)} % differ from the native program's`);
+    assert.ok(differing < 1, `${differing} % differ`);
+    const noSun = difference(await shown(page, { sun: null }), lit);
+    assert.ok(noSun > 5, `${noSun} % differ without the sun`);
+    assert.ok(difference(await shown(page, { sun: '-1,1,-0.5' }), nativePicture(...view, '--sun', '-1,1,-0.5')) < 1);
+    const problem = () => page.evaluate(async () => {
+      await new Promise((done) => setTimeout(done));
+      return a.shadowRoot.querySelector('[part=message]').textContent;
+    });
+    for (const [name, values] of [['groundColor', ['0.5,0.4', '1,1,2', 'red', '1,,1']], ['sun', ['1,0,0', '1,1', '0,1,0,91', '0,1,0,1,2', '0,1,0,1,2,2,-1', '0,1,0,1,2,2,2,2']]]) {
+      const attribute = name === 'sun' ? 'sun' : 'ground-color';
+      for (const value of values) {
+        await page.evaluate(([key, text]) => (a[key] = text), [name, value]);
+        assert.match(await problem(), new RegExp(`^${attribute} is '${value}'; it must be `));
+      }
+      await page.evaluate((key) => (a[key] = null), name);
+    }
+    await page.evaluate(() => Object.assign(a, { ground: false, sun: '0,1,0' }));
+    assert.equal(await problem(), 'sun says something of a ground; add ground');
+    await page.evaluate(() => (a.sun = null));
+    assert.equal(await problem(), '');
+  });
+
   test('adding, removing and moving leaks nothing', async (t) => {
     const page = await open(t, '<div id="one"></div><div id="two"></div>', { waits: false });
     const measured = await page.evaluate(async () => {
@@ -968,10 +996,10 @@ describe('the element', { skip }, () => {
       return isYoung && name === this.SYNC_STATUS ? this.UNSIGNALED : getSyncParameter.call(this, fence, name);
     };
   };
-  for (const [technique, full, least] of [['exact', [4, 100, 8], [2, 25, 4]], ['layered', [4, 100, 8], [2, 25, 4]]]) {
+  for (const [technique, full, least] of [['exact', [4, 100, 8, 1, 3], [2, 25, 4, 0, 1]], ['layered', [4, 100, 8, 0, 3], [2, 25, 4, 0, 1]]]) {
     test(`quality="auto" holds the frame time and ends with a full frame: ${technique}`, async (t) => {
       const page = await open(t, `<vitrine-viewer id="a" src="knot" camera-controls technique="${technique}" steps="100"></vitrine-viewer><style>vitrine-viewer { width: 100px; height: 100px }</style>`, { deviceScaleFactor: 3, init });
-      const settings = ({ layers, steps, maxEvents }) => [layers, steps, maxEvents];
+      const settings = ({ layers, steps, maxEvents, branches, wavelengths }) => [layers, steps, maxEvents, branches, wavelengths];
       const first = (await events(page, 'render-scale'))[0];
       assert.deepEqual([first.reportedDpr, first.renderedDpr, first.pixelWidth, first.preset, first.reason], [3, 2, 200, 'medium', 'still']);
       assert.deepEqual(settings(first), full);
@@ -979,6 +1007,8 @@ describe('the element', { skip }, () => {
       await page.evaluate(() => (a.autoRotate = true));
       await page.waitForFunction(() => window.events.some(({ pixelWidth }) => pixelWidth === 50));
       await page.screenshot({ path: join(screenshots, `element-moving-${technique}.png`) });
+      const lessened = () => page.evaluate(async () => (await customElements.get('vitrine-viewer').statistics()).lessened);
+      assert.deepEqual((await lessened()).map((one) => [one.pixelWidth < 200, one.reason]), [[true, 'frame-time']]);
       await page.evaluate(() => (a.autoRotate = false));
       await quiet(page);
       const scales = await events(page, 'render-scale');
@@ -988,6 +1018,7 @@ describe('the element', { skip }, () => {
       assert.ok(scales.some(({ preset }) => preset === 'low'));
       const { pixelWidth, preset, reason } = scales.at(-1);
       assert.deepEqual([pixelWidth, preset, reason], [200, 'medium', 'still']);
+      assert.deepEqual(await lessened(), []);
       await page.evaluate(() => a.resetView());
       await quiet(page);
       assert.equal(difference(shown, await picture(page)), 0);

@@ -161,6 +161,7 @@ static const Option table[] = {
     {"no-fresnel", 0, kindFlag, AT(noFresnel), 0, 0, NULL, "paths only refract, or reflect where they must",
      RENDER | VIEW},
     SETTING("branches", RENDER | VIEW | BENCH),
+    SETTING("wavelengths", RENDER | VIEW),
     SETTING("multi", RENDER | VIEW | BENCH),
     SETTING("search", RENDER | VIEW | BENCH),
     {"events", 0, kindText, AT(events), 0, 0, "FILE",

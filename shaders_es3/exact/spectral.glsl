@@ -4,6 +4,7 @@
 //   JCGT 2013: what the wavelengths weigh.
 // Departures:
 // - The first sample follows red, green and blue at the mean index of what each of them sees, so that it has no noise.
+//   With fewer wavelengths (u_wavelengths) green and blue go together, or all three.
 // - The others follow wavelengths a third of the spectrum apart, shifted by another number in every pixel and sample.
 // Needs chance and objects.
 #define WITH_SPECTRAL
@@ -26,6 +27,8 @@ const vec4 SPECTRUM[32] = vec4[32](    vec4(0.4643, -0.4851, 3.7101, 1.4955),   
     vec4(3.4257, -0.2955, -0.0535, -0.1704),    vec4(3.3837, -0.3577, -0.0442, -0.2017),
     vec4(3.3535, -0.3922, -0.0388, -0.2408),    vec4(3.4041, -0.2937, -0.0531, -0.3134));
 
+uniform int u_wavelengths; // of the first sample, 1 to 3
+
 float g_spread; // of the wavelength that is followed
 
 vec4 spectrumAt(float at)
@@ -35,14 +38,20 @@ vec4 spectrumAt(float at)
     return mix(SPECTRUM[low], SPECTRUM[min(low + 1, 31)], place - float(low));
 }
 
-// The third `part` of the sample: sets g_spread; the colour of its light.
+// Paths that the sample has.
+int wavelengthCount()
+{
+    return u_sample.y == 0 ? u_wavelengths : 3;
+}
+
+// The `part` of the sample: sets g_spread; the colour of its light.
 vec3 startWavelength(int part)
 {
-    vec3 mask = vec3(equal(ivec3(part), ivec3(0, 2, 1)));
+    vec3 mask = vec3(equal(ivec3(part), min(ivec3(0, 2, 1), u_wavelengths - 1)));
     float shift = mixedNumbers(uvec3(gl_FragCoord.xy, 0x20000)).x + 0.61803399 * float(u_sample.x % 4096);
     vec4 spectrum = spectrumAt(fract(shift + float(part) / 3.0));
     bool isFirst = u_sample.y == 0;
-    g_spread = isFirst ? dot(mask, vec3(-0.228, 0.237, 1.182)) : spectrum.a;
+    g_spread = isFirst ? dot(mask, vec3(-0.228, 0.237, 1.182)) / dot(mask, vec3(1.0)) : spectrum.a;
     return isFirst ? mask : spectrum.rgb / 3.0;
 }
 

@@ -367,6 +367,9 @@ void main()
     for (int part = 0; part < 3; ++part) {
         vec3 color = startWavelength(part);
         light += color * lightOfPixel(status);
+        if (part + 1 >= wavelengthCount()) {
+            break;
+        }
     }
 #else
     vec3 light = lightOfPixel(status);

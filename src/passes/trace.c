@@ -102,7 +102,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
     vtProgramDef def = {.name = photons ? "photons" : "trace",
                         .vertex = {&vtChunk_screen_vert},
                         .uniforms = {"u_branches", "u_ground", photons ? "u_groundRays" : "u_groundMatt",
-                                     photons ? "u_groundBox" : "u_sun", photons ? "u_groundLight" : NULL}};
+                                     photons ? "u_groundBox" : "u_sun",
+                                     photons ? "u_groundLight" : "u_wavelengths"}};
     vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
     return def;
 }
@@ -182,6 +183,9 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
     vtBindFramebuffer(gl, pass->framebuffers[host], pass->paths.width, pass->paths.height);
     gl->UseProgram(program->name);
     gl->Uniform1i(program->uniforms[0], inputs->branches);
+    if ((variant & vt_traceSpectral) != 0) {
+        gl->Uniform1i(program->uniforms[4], inputs->wavelengths);
+    }
     vtBindTraced(gl, inputs->scene, inputs->environment);
     if ((variant & vt_traceGround) != 0) {
         gl->Uniform4fv(program->uniforms[1], 1, inputs->ground->place);

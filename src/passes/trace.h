@@ -46,6 +46,7 @@ typedef struct vtTraceInputs {
     const vtGroundBuffer* ground; ///< for a variant with vt_traceGround
     float sun[16];                ///< for a variant with vt_traceShade: shade.glsl's
     int branches;                 ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
+    int wavelengths; ///< 1 to VT_MAX_WAVELENGTHS, that the first sample follows through glass that disperses
 } vtTraceInputs;
 
 /// Is some glass rough, and drawn so? Then the first sample counts as several, and light is blurred.

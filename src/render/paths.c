@@ -255,7 +255,8 @@ void vtRenderer_DrawPaths(vtRenderer* renderer, const vtFrame* frame, bool layer
                             .environment = &renderer->environment,
                             .host = &renderer->host,
                             .ground = &renderer->ground.buffer,
-                            .branches = vtFrame_BranchCount(frame)};
+                            .branches = vtFrame_BranchCount(frame),
+                            .wavelengths = vtResolveFrame(frame).wavelengths};
     findSuns(renderer, frame, inputs.sun);
     vtTracePass_Draw(&renderer->trace, &renderer->gl, chooseTrace(renderer, frame), &inputs);
     vtEndStage(frame, "trace");

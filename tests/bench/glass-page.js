@@ -75,6 +75,8 @@ class VitrineContestant {
     this.canvas = document.createElement('canvas');
   }
 
+  samples = 1;
+
   async open() {
     const { size, files, core } = this.shared;
     this.canvas.width = this.canvas.height = size;
@@ -90,14 +92,15 @@ class VitrineContestant {
   }
 
   #setGlass(reflects) {
-    const { technique, canReflect, shared: { ior } } = this;
+    const { technique, canReflect, shared: { ior, roughness = -1, dispersion = -1, ground } } = this;
     const fresnel = reflects && canReflect ? 'on' : 'off'; // off: strict paths, whose directions can be compared
-    this.#must(this.viewer.setGlass({ technique, ior, fresnel, preset: 'medium', output: 'picture', layer: 0, exposure: 0, 'tone-mapping': 'none', background: { kind: 0, color: [0, 0, 0] }, samples: 1, lessened: false }));
+    this.#must(this.viewer.setGlass({ technique, ior, roughness, dispersion, ground, fresnel, preset: 'medium', output: 'picture', layer: 0, exposure: 0, 'tone-mapping': 'none', background: { kind: 0, color: [0, 0, 0] }, samples: this.samples, lessened: false }));
   }
 
   /** reflects: with Fresnel reflection, the default; what: 'picture' or 'directions'. */
-  async show({ reflects, what }) {
+  async show({ reflects, what, samples = 1 }) {
     const { files } = this.shared;
+    this.samples = samples;
     this.#setGlass(reflects);
     const contents = what === 'picture' ? files.environment : files.directions;
     this.#must(this.viewer.attemptFile('OpenEnvironment', { name: 'environment.hdr', contents }));
@@ -113,6 +116,14 @@ class VitrineContestant {
     const drawn = this.viewer.call('Tick');
     if (drawn < 0) throw new Error(this.viewer.problem());
     return drawn;
+  }
+
+  /** Adds the samples that are missing. */
+  async refine() {
+    for (let drawn = 1; drawn !== 0; drawn = this.viewer.call('Tick')) {
+      if (drawn < 0) throw new Error(this.viewer.problem());
+      if (drawn === 2) await new Promise((done) => setTimeout(done, 5));
+    }
   }
 
   #must(problem) {
@@ -161,7 +172,7 @@ window.bench = {
     mesh.geometry.computeBoundingBox();
     const { boundingBox } = mesh.geometry;
     const extents = boundingBox.getSize(new THREE.Vector3()).toArray();
-    return { triangles, hasNormals, meanChord, centre: boundingBox.getCenter(new THREE.Vector3()).toArray(), halfExtent: Math.max(...extents) / 2, three: THREE.REVISION,
+    return { triangles, hasNormals, meanChord, low: boundingBox.min.y, centre: boundingBox.getCenter(new THREE.Vector3()).toArray(), halfExtent: Math.max(...extents) / 2, three: THREE.REVISION,
       renderer: gl.getParameter(gl.getExtension('WEBGL_debug_renderer_info').UNMASKED_RENDERER_WEBGL) };
   },
 
@@ -186,6 +197,7 @@ window.bench = {
     const contestant = contestants.get(key);
     await contestant.show(settings);
     contestant.draw();
+    await contestant.refine?.();
     return contestant.canvas.toDataURL('image/png').split(',')[1];
   },
 

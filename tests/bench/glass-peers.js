@@ -1,4 +1,5 @@
 // The peers of glass-page.js: drei's and three.js's own components, driven by React Three Fiber one frame at a time.
+import { Caustics } from '@react-three/drei/core/Caustics.js';
 import { MeshRefractionMaterial } from '@react-three/drei/core/MeshRefractionMaterial.js';
 import { MeshTransmissionMaterial } from '@react-three/drei/core/MeshTransmissionMaterial.js';
 import { createRoot, extend } from '@react-three/fiber';
@@ -12,14 +13,17 @@ THREE.ShaderChunk.cube_uv_reflection_fragment ??= '';
 
 const smooth = { chromaticAberration: 0, anisotropicBlur: 0 }; // the scene has neither dispersion nor roughness
 
-/** Each gets { ior, thickness, reflects, environment } and returns its material. */
+/** Its index grows by this share from red to blue: what Cauchy's formula gives for what red and blue see on average. */
+const aberration = ({ ior, dispersion }) => ((ior - 1) * dispersion * 1.41) / (20 * ior);
+
+/** Each gets { ior, thickness, reflects, environment, roughness, dispersion } and returns its material. */
 const peers = {
-  physical: ({ ior, thickness, reflects }) =>
-    createElement('meshPhysicalMaterial', { transmission: 1, roughness: 0, ior, thickness, specularIntensity: Number(reflects) }),
+  physical: ({ ior, thickness, reflects, roughness, dispersion }) =>
+    createElement('meshPhysicalMaterial', { transmission: 1, roughness, dispersion, ior, thickness, specularIntensity: Number(reflects) }),
   'physical-double': ({ ior, thickness, reflects }) =>
     createElement('meshPhysicalMaterial', { transmission: 1, roughness: 0, ior, thickness, specularIntensity: Number(reflects), side: THREE.DoubleSide }),
-  transmission: ({ ior, thickness, reflects }) =>
-    createElement(MeshTransmissionMaterial, { ...smooth, ior, thickness, specularIntensity: Number(reflects) }),
+  transmission: ({ ior, thickness, reflects, roughness, dispersion }) =>
+    createElement(MeshTransmissionMaterial, { ...smooth, roughness, chromaticAberration: aberration({ ior, dispersion }), ior, thickness, specularIntensity: Number(reflects) }),
   'transmission-default': ({ ior, thickness, reflects }) =>
     createElement(MeshTransmissionMaterial, { ior, thickness, specularIntensity: Number(reflects) }),
   'transmission-backside': ({ ior, thickness, reflects }) =>
@@ -55,9 +59,22 @@ export function directionTexture() {
   return texture;
 }
 
+/** A matt ground below, lit by the sun with a shadow map, and drei's caustics on it; all as large as their map of ours. */
+function Ground({ ground: { low, color, sun, light }, ior, intensity, children }) {
+  const far = 20, position = sun.map((value) => (value * far) / Math.hypot(...sun));
+  const shadow = { left: -3, right: 3, top: 3, bottom: -3, near: 1, far: 2 * far };
+  const lamp = createElement('directionalLight', { key: 'sun', position, color: new THREE.Color(...light), intensity: 1, castShadow: true, 'shadow-mapSize': [1024, 1024], ...Object.fromEntries(Object.entries(shadow).map(([side, at]) => [`shadow-camera-${side}`, at])) });
+  const plane = createElement('mesh', { key: 'plane', position: [0, low, 0], rotation: [-Math.PI / 2, 0, 0], receiveShadow: true },
+    createElement('planeGeometry', { args: [200, 200] }), createElement('meshStandardMaterial', { color: new THREE.Color(...color), roughness: 1 }));
+  const caustics = createElement(Caustics, { key: 'caustics', position: [0, low + 0.001, 0], lightSource: sun, ior, intensity, worldRadius: 0.01, resolution: 1024, frames: Infinity, color: new THREE.Color(...color.map((value, k) => (value * light[k]) / 3)) },
+    createElement('group', { position: [0, -low, 0] }, children));
+  return [lamp, plane, caustics];
+}
+
 function Scene({ geometry, name, ready, settings }) {
   useLayoutEffect(ready);
-  return createElement('mesh', { geometry }, peers[name](settings));
+  const glass = createElement('mesh', { geometry, castShadow: true }, peers[name](settings));
+  return settings.ground ? createElement(Ground, settings, glass) : glass;
 }
 
 export class Peer {
@@ -77,7 +94,7 @@ export class Peer {
     const distance = Math.hypot(...camera.eye.map((value, k) => value - camera.target[k]));
     this.#root = createRoot(this.canvas);
     await this.#root.configure({
-      frameloop: 'never', flat: true, dpr: 1, // flat: no tone mapping
+      frameloop: 'never', flat: true, dpr: 1, shadows: true, // flat: no tone mapping
       size: { width: size, height: size, top: 0, left: 0 },
       gl: { antialias: false, powerPreference: 'high-performance' }, // nobody here has antialiasing
       camera: { position: camera.eye, fov: camera.fov, near: 0.01 * distance, far: 10 * distance },
@@ -94,11 +111,11 @@ export class Peer {
   }
 
   /** what: 'picture' or 'directions'. reflects: with Fresnel's reflection of the environment, the material's default. */
-  async show({ thickness, reflects, what }) {
+  async show({ thickness, reflects, what, intensity }) {
     const environment = this.#environments[what];
-    const { geometry, name, shared: { ior } } = this;
+    const { geometry, name, shared: { ior, roughness = 0, dispersion = 0, stage } } = this;
     await new Promise((ready) => {
-      this.#store = this.#root.render(createElement(Scene, { geometry, name, ready, settings: { ior, thickness, reflects, environment } }));
+      this.#store = this.#root.render(createElement(Scene, { geometry, name, ready, settings: { ior, roughness, dispersion, thickness, reflects, environment, ground: stage, intensity } }));
     });
     const { scene } = this.#store.getState();
     scene.background = environment;

@@ -5,61 +5,15 @@
 //   node tests/bench/glass.mjs [--model FILE.glb] [--rounds N] [--gl llvmpipe|swiftshader|gpu] ...   (--help: all)
 // Needs build/release, build/web and the packages of tests/; those of tests/bench/, which the peers need, are installed
 // on first use.
-import { execFileSync, spawnSync } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { cpus } from 'node:os';
-import { basename, dirname, join, relative, resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
-import { answerWithFile, launch, listen, openPage } from '../browser-tools.mjs';
-import { agreement, background, calibrate, cameraRays, decode, directionsHdr, pfm, readPfm, shares } from './glass-directions.mjs';
+import { basename, join, relative } from 'node:path';
+import { agreement, background, calibrate, cameraRays, decode, pfm, readPfm, shares } from './glass-directions.mjs';
 import { readOptions } from './glass-options.mjs';
 import { insert, isPlain, markdown, median, sheet, techniqueOf } from './glass-report.mjs';
-
-const here = dirname(fileURLToPath(import.meta.url));
-const root = resolve(here, '../..');
+import { flip, note, openSite, prepare, run, timeInTurns, versions } from './glass-site.mjs';
 
 const leastAgreement = 0.99; // of browser and native program; measured: 1 on llvmpipe, exact 0.999 and layered 0.992 on SwiftShader
-
-const vitrine = process.env.VITRINE_BINARY ?? join(root, 'build/release/vitrine');
-const web = resolve(process.env.VITRINE_WEB ?? join(root, 'build/web'));
-
-function note(text) {
-  process.stderr.write(`${text}\n`);
-}
-
-function prepare({ model, environment, peers }) {
-  for (const [file, remedy] of [
-    [vitrine, 'cmake --preset release && cmake --build --preset release'],
-    [join(web, 'vitrine-core.wasm'), 'scripts/build-web.sh'],
-    [model, 'give --model, or run scripts/dependencies.sh and scripts/build-web.sh'],
-    [environment, 'give --environment, or run scripts/dependencies.sh and scripts/build-web.sh'],
-    [join(root, 'tests/node_modules/playwright-core'), 'scripts/dependencies.sh'],
-  ]) {
-    if (!existsSync(file)) throw new Error(`${file} is missing: ${remedy}`);
-  }
-  if (peers.length > 0 && !existsSync(join(here, 'node_modules/@react-three/drei'))) {
-    note('installing the packages of tests/bench');
-    const { status } = spawnSync('npm', ['--prefix', here, 'ci', '--no-audit', '--no-fund', '--loglevel=error'], { stdio: ['ignore', 2, 2] });
-    if (status !== 0) throw new Error('npm ci failed in tests/bench');
-  }
-}
-
-/** The native program; its standard output. */
-function run(...words) {
-  return execFileSync(vitrine, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
-}
-
-const packages = ['three', '@react-three/drei', '@react-three/fiber', 'three-mesh-bvh'];
-const version = (name) => JSON.parse(readFileSync(join(here, `node_modules/${name}/package.json`), 'utf8')).version;
-
-/** Serves the site, and `files` from elsewhere. */
-function serveWith(site, files) {
-  return listen((request, response) => {
-    const { pathname } = new URL(request.url, 'http://localhost');
-    const file = resolve(files[pathname] ?? join(site, pathname));
-    answerWithFile(dirname(file), `/${basename(file)}`, response);
-  });
-}
 
 /** Truth, by the native ray tracer, and each technique's directions, by the native program. */
 function traceTruth({ model, environment, size, ior, camera, samples }, out) {
@@ -80,36 +34,12 @@ function traceTruth({ model, environment, size, ior, camera, samples }, out) {
 async function main() {
   const options = readOptions();
   prepare(options);
-  const { build } = await import('esbuild');
   const { PNG } = (await import('pngjs')).default;
   const { out, size } = options;
   mkdirSync(out, { recursive: true });
 
-  await build({
-    entryPoints: [join(here, 'glass-page.js')], bundle: true, minify: true, format: 'esm', target: 'es2022', logLevel: 'error',
-    outfile: join(out, 'site/page.js'), define: { 'process.env.NODE_ENV': '"production"' },
-    alias: { 'vitrine-core': join(web, 'element/core.js') },
-    external: options.peers.length > 0 ? [] : ['./glass-peers.js'], // never loaded: its packages may be absent
-  });
-  writeFileSync(join(out, 'site/index.html'), '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><script type="module" src="/page.js"></script>');
-  writeFileSync(join(out, 'site/directions.hdr'), directionsHdr());
-  const server = await serveWith(join(out, 'site'), {
-    '/': join(out, 'site/index.html'), '/model.glb': options.model, '/environment.hdr': options.environment,
-    '/vitrine-core.wasm': join(web, 'vitrine-core.wasm'), '/vitrine-shaders.txt': join(web, 'vitrine-shaders.txt'),
-  });
-  const environment = { ...process.env };
-  if (options.gl === 'llvmpipe') environment.LIBGL_ALWAYS_SOFTWARE = '1';
-  const browser = await launch(options.gl, { env: environment });
+  const { browser, call, complaints, close } = await openSite(options);
   try {
-    const page = await openPage(browser, { viewport: { width: 900, height: 600 } });
-    const complaints = [];
-    page.on('console', (message) => {
-      if (message.type() === 'error') complaints.push(message.text());
-    });
-    page.on('pageerror', (reason) => complaints.push(String(reason)));
-    await page.goto(`${server.address}/`);
-    await page.waitForFunction(() => window.bench !== undefined);
-    const call = (name, ...values) => page.evaluate(([method, words]) => window.bench[method](...words), [name, values]);
     const shared = await call('open');
     note(`${shared.renderer}; ${basename(options.model)}, ${shared.triangles} triangles`);
     const target = options.target ?? shared.centre;
@@ -127,7 +57,6 @@ async function main() {
     });
     const rays = cameraRays(size, camera);
     const judged = events.map((count) => count >= 1 && count <= 4);
-    const flip = (picture, reference) => JSON.parse(run('compare', picture, reference, '--json')).flip;
 
     // Who takes part.
     const entries = [
@@ -202,15 +131,8 @@ async function main() {
     const time = async (entries, reflects) => {
       for (const { key, kind, thickness } of entries) {
         if (kind !== 'empty') await call('show', key, { thickness, reflects, what: 'picture' });
-        for (let i = 0; i < 2; ++i) await call('time', key);
       }
-      const times = entries.map(() => []);
-      for (let round = 0; round < options.rounds; ++round) {
-        for (const [i, { key }] of entries.entries()) times[i].push(await call('time', key));
-        process.stderr.write('.');
-      }
-      process.stderr.write('\n');
-      return times;
+      return timeInTurns(call, entries.map(({ key }) => key), options.rounds);
     };
     (await time(contestants, true)).forEach((times, i) => (contestants[i].times = times));
     const reflecting = contestants.filter(({ name }) => !['empty', 'refraction'].includes(name) && !isPlain(name));
@@ -228,7 +150,7 @@ async function main() {
       model: basename(options.model), triangles: shared.triangles, normals: shared.hasNormals ? 'of the file' : 'computed',
       environment: basename(options.environment), size, rounds: options.rounds, ior: options.ior, camera, samples: options.samples,
       meanChord: shared.meanChord, thicknessGiven: options.thickness !== null,
-      versions: options.peers.length > 0 ? Object.fromEntries(packages.map((name) => [name, version(name)])) : {},
+      versions: options.peers.length > 0 ? versions() : {},
       judgedPixels: judged.filter(Boolean).length, background: background(truth) / (size * size),
       contestants: rows, absent: absent.map(({ kind, name, problem }) => ({ kind, name, problem })),
     };
@@ -239,8 +161,7 @@ async function main() {
     console.log(markdown(report));
     note(`written to ${relative(process.cwd(), out) || '.'}`);
   } finally {
-    await browser.close();
-    server.close();
+    await close();
   }
 }
 

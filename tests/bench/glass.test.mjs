@@ -90,6 +90,22 @@ test('the first picture is measured', { skip }, () => {
   assert.ok(queries >= counts.getParameter && counts.getParameter > 0, stdout);
 });
 
+test('rough glass, dispersion and caustics are measured', { skip }, (t) => {
+  const out = mkdtempSync(join(tmpdir(), 'vitrine-effects-'));
+  t.after(() => rmSync(out, { recursive: true }));
+  const effects = (...words) => spawnSync(process.execPath, [join(here, 'effects.mjs'), '--peers', '', '--out', out, '--environment', join(web, 'demo/assets/city.hdr'), ...words], { encoding: 'utf8' });
+  const { status, stdout, stderr } = effects('--size', '64', '--rounds', '1', '--samples', '32');
+  assert.equal(status, 0, stderr);
+  const rows = [...stdout.matchAll(/^\| (.*) \| Vitrine exact \| ([\d.]+) ms \| 1\.00 \| ([\d.]+) \| ([\d.]+) \|$/gm)];
+  assert.equal(rows.length, 6, stdout);
+  for (const [row, scene, milliseconds, moving, still] of rows) {
+    t.diagnostic(row);
+    assert.ok(Number(milliseconds) > 0 && Number(moving) < 0.25 && Number(still) < 0.1, row); // another glass, or none: more
+    assert.ok(Number(still) < Number(moving), `${scene}: at rest nearer to the reference`);
+  }
+  assert.match(effects('--only', 'fog').stderr, /^bench: --only names 'fog'; there are rough, dispersion, caustics/);
+});
+
 test('a wrong option is answered with a sentence', { skip: !existsSync(join(root, 'tests/node_modules/playwright-core')) && 'missing: node modules' }, () => {
   const { status, stderr } = spawnSync(process.execPath, [join(here, 'glass.mjs'), '--camera', '1,2'], { encoding: 'utf8' });
   assert.equal(status, 1);

@@ -130,18 +130,34 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Set(vtViewer* viewer, const char* name, doubl
     vtSetting_Set(vtFindSetting(name), &viewer->wanted, value);
 }
 
-/// A ground at the scene's lowest point, or none; shadows from 0 to 1.
-EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGround(vtViewer* viewer, bool isThere, float intensity,
-                                                    float softness)
+static bool same(vtVec3 a, vtVec3 b)
 {
-    const vtGroundPass* now = &viewer->renderer->ground;
-    if (now->isThere == isThere &&
-        (!isThere || (now->ground.shadowIntensity == intensity && now->ground.shadowSoftness == softness))) {
-        return NULL; // what falls on it is kept
-    }
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/// A ground at the scene's lowest point, or none; the rest as vtGround has it.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGround(vtViewer* viewer, bool isThere, float intensity,
+                                                    float softness, bool matt, float red, float green,
+                                                    float blue, float sunX, float sunY, float sunZ,
+                                                    float sunSize, float sunRed, float sunGreen,
+                                                    float sunBlue)
+{
     vtGround ground = vtDefaultGround();
     ground.shadowIntensity = intensity;
     ground.shadowSoftness = softness;
+    ground.matt = matt;
+    ground.color = (vtVec3){red, green, blue};
+    ground.sunDirection = (vtVec3){sunX, sunY, sunZ};
+    ground.sunSize = sunSize;
+    ground.sunColor = (vtVec3){sunRed, sunGreen, sunBlue};
+    const vtGround* now = &viewer->renderer->ground.ground;
+    if (viewer->renderer->ground.isThere == isThere &&
+        (!isThere ||
+         (now->shadowIntensity == intensity && now->shadowSoftness == softness && now->matt == matt &&
+          same(now->color, ground.color) && same(now->sunDirection, ground.sunDirection) &&
+          now->sunSize == sunSize && same(now->sunColor, ground.sunColor)))) {
+        return NULL; // what falls on it is kept
+    }
     viewer->changed = true;
     return sentence(viewer, vtRenderer_SetGround(viewer->renderer, isThere ? &ground : NULL, &viewer->error));
 }
@@ -323,12 +339,13 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Info(vtViewer* viewer)
         "{\"triangles\":%u,\"openEdges\":%u,\"objects\":%u,\"glassObjects\":%u,\"cameras\":%u,\"images\":%u,"
         "\"layerWidth\":%d,\"layerHeight\":%d,\"drawCount\":%d,"
         "\"technique\":\"%s\",\"preset\":\"%s\",\"ior\":%.6g,\"layers\":%d,\"steps\":%d,\"maxEvents\":%d,"
+        "\"branches\":%d,\"wavelengths\":%d,"
         "\"output\":%d,\"eye\":[%.6g,%.6g,%.6g],\"target\":[%.6g,%.6g,%.6g],\"fov\":%.6g}",
         facts.triangles, facts.openEdges, viewer->scene.objectCount, facts.glassCount,
         viewer->scene.cameraCount, viewer->scene.imageCount, info.layerWidth, info.layerHeight,
         viewer->drawCount, vtTechnique_Info(frame.technique)->id, vtPresetName((int)frame.preset),
-        (double)facts.ior, frame.layers, frame.steps, frame.maxEvents, (int)frame.output, (double)view->eye.x,
-        (double)view->eye.y, (double)view->eye.z, (double)view->target.x, (double)view->target.y,
-        (double)view->target.z, (double)view->fovY);
+        (double)facts.ior, frame.layers, frame.steps, frame.maxEvents, vtFrame_BranchCount(&frame),
+        frame.wavelengths, (int)frame.output, (double)view->eye.x, (double)view->eye.y, (double)view->eye.z,
+        (double)view->target.x, (double)view->target.y, (double)view->target.z, (double)view->fovY);
     return viewer->info;
 }

@@ -28,7 +28,7 @@ typedef struct vtViewer {
     int drawCount;
     uint8_t* image; ///< the last one of vtViewer_Image
     vtError error;
-    char info[640];
+    char info[704];
     char path[192 + 128 * VT_MAX_EVENTS]; ///< the last one of vtViewer_Path
 } vtViewer;
 

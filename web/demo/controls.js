@@ -27,7 +27,7 @@ const sliders = {
   exposure: (value) => `${value > 0 ? '+' : ''}${value.toFixed(1)} EV`,
   fov: (value) => `${Math.round(value)}°`,
 };
-const checks = ['backdrop', 'rotate'];
+const checks = ['backdrop', 'ground', 'rotate'];
 
 function create(name, properties, ...children) {
   const node = Object.assign(document.createElement(name), properties);

@@ -39,6 +39,7 @@ function attributesOf(state) {
     'relief-smooth': isRelief && files.has(state.relief) ? state.smooth : null,
     'environment-image': extraEnvironments.get(state.environment)?.url ?? state.environment,
     'skybox-image': state.backdrop ? '' : null,
+    ground: state.ground ? '' : null,
     ior: objects === null ? state.ior : null,
     roughness: state.roughness || null, // 0: as the objects are
     dispersion: state.dispersion || null,

@@ -87,11 +87,11 @@ export const glasses = [
 /** The stored picture, and the scene it was traced from (pictures/make.sh). */
 export const reference = {
   url: 'pictures/reference.png',
-  scene: { model: 'knot', environment: 'sky', backdrop: true, ior: 1.5, iors: '', roughness: 0, dispersion: 0, exposure: 0, tone: 'none', fov: 45, orbit: '30deg 72deg 3.4m', target: '0m 0m 0m', rotate: false, output: 'picture' },
+  scene: { model: 'knot', environment: 'sky', backdrop: true, ground: false, ior: 1.5, iors: '', roughness: 0, dispersion: 0, exposure: 0, tone: 'none', fov: 45, orbit: '30deg 72deg 3.4m', target: '0m 0m 0m', rotate: false, output: 'picture' },
 };
 
 export const defaults = {
-  model: 'knot', relief: 'ripples', depth: 0.05, slab: 0.1, smooth: 2, environment: 'sky', backdrop: true,
+  model: 'knot', relief: 'ripples', depth: 0.05, slab: 0.1, smooth: 2, environment: 'sky', backdrop: true, ground: false,
   technique: 'exact', compare: 'none', wipe: 50,
   ior: 1.5, iors: '', roughness: 0, dispersion: 0, preset: 'medium', layers: 0, steps: 0, events: 0, quality: 'auto', // 0: as the preset says
   output: 'picture', layer: 0, exposure: 0, tone: 'neutral', fov: 45, rotate: false,
@@ -118,7 +118,7 @@ const words = (unit) => (text) => {
   return new RegExp(`^${word} ${word} ${word}$`).test(text) ? [text] : [null, `must be three of auto or a number with ${unit.replaceAll('|', ', ')}`];
 };
 const readers = {
-  model: (text) => oneOf([...shapes, ...scenes.keys(), ...extraModels.keys()])(text), environment: (text) => oneOf([...environments, ...extraEnvironments.keys()])(text), backdrop: flag,
+  model: (text) => oneOf([...shapes, ...scenes.keys(), ...extraModels.keys()])(text), environment: (text) => oneOf([...environments, ...extraEnvironments.keys()])(text), backdrop: flag, ground: flag,
   relief: oneOf(patterns.map(({ id }) => id)), depth: number(0, 10), slab: number(0.001, 10), smooth: number(0, 64),
   technique: oneOf(ids), compare: oneOf(['none', 'reference', ...ids]), wipe: number(0, 100),
   ior: number(1, 4), iors: numbers(1, 4), roughness: number(0, 1), dispersion: number(0, 20), preset: oneOf(presets), layers: number(0, 16, true), steps: number(0, 1000, true), events: number(0, 64, true), quality: oneOf(qualities),

@@ -47,14 +47,16 @@ function loadShaders(core) {
   return shaders;
 }
 
-/** What is held at present, for measurements, and what of the files that are shown is left out or changed. */
+/** What is held at present, for measurements, what of the files that are shown is left out or changed, and how the elements are drawn that move in less than full quality. */
 export async function coreStatistics() {
   const core = await loading;
-  const warnings = [...viewers].filter(({ isLost }) => !isLost).flatMap(({ notes }) => notes);
-  return { contexts: viewers.size, heapBytes: core?.HEAPU8.length ?? 0, warnings };
+  const seen = [...viewers].filter(({ isLost }) => !isLost);
+  const lessened = seen.flatMap((viewer) => viewer.lessened ?? []);
+  return { contexts: viewers.size, heapBytes: core?.HEAPU8.length ?? 0, warnings: seen.flatMap(({ notes }) => notes), lessened };
 }
 
 const { values: wallsNames } = attributes.find(({ attribute }) => attribute === 'walls'); // in the order of vtWalls
+const noGround = Array(14).fill(0); // of vtViewer_SetGround
 const workAtOnce = 20000; // triangles looked at: a few milliseconds
 
 /** A context, the renderer in it, and the calls of web/core/viewer.c. */
@@ -63,6 +65,8 @@ export class Viewer {
   #canvas;
   #context; // Emscripten's handle
   #viewer = 0; // address of the vtViewer; 0 while the context is lost
+  /** @type {object|null} detail of render-scale where less is drawn than at rest */
+  lessened = null;
 
   /**
    * @param core from loadCore
@@ -150,7 +154,7 @@ export class Viewer {
    * Settings by their names in the core's table (src/technique/settings.c), a word by its attribute's list; null: as the preset or each object says; technique null: as the scene has it; background as readBackground.
    * @returns {string} a sentence, or ''
    */
-  setGlass({ technique, lessened, ground = [0, 0, 0], background: { kind, color } = { kind: 1, color: [0, 0, 0] }, ...settings }) {
+  setGlass({ technique, lessened, ground = noGround, background: { kind, color } = { kind: 1, color: [0, 0, 0] }, ...settings }) {
     for (const [name, value] of Object.entries(settings)) {
       const words = attributes.find(({ attribute }) => attribute === name)?.values;
       this.call('Set', name, words ? words.indexOf(value) : Number(value));

@@ -4,7 +4,7 @@ const slowFrames = 2, fastFrames = 8; // in a row, before a step
 
 /**
  * Parts of the resolution; `lessened`: settings at most those of preset low, which makes a pixel of layered up to twice
- * as fast. Each step costs at most 2.7 times the next: up and down do not alternate.
+ * as fast, and of exact as docs/method.md#what-presets-spend says. Each step costs at most 2.7 times the next: up and down do not alternate.
  */
 export const levels = [
   { scale: 1, lessened: false },

@@ -405,14 +405,16 @@ export class Stage {
   }
 
   #tellScale(pixelWidth, pixelHeight) {
-    const { layers, steps, maxEvents } = this.#viewer.info();
+    const { layers, steps, maxEvents, branches, wavelengths } = this.#viewer.info();
     const preset = this.quality.lessened ? 'low' : this.glass.preset;
-    const size = { pixelWidth, pixelHeight, preset, layers, steps, maxEvents };
+    const size = { pixelWidth, pixelHeight, preset, layers, steps, maxEvents, branches, wavelengths };
     if (Object.keys(size).every((key) => this.#drawn[key] === size[key])) return;
     this.#drawn = size;
     const { reason, scale } = this.quality;
     const minimumDpr = this.#dpr * levels.at(-1).scale;
-    this.#told.scaled({ reportedDpr: window.devicePixelRatio, renderedDpr: this.#dpr * scale, minimumDpr, ...size, reason });
+    const detail = { reportedDpr: window.devicePixelRatio, renderedDpr: this.#dpr * scale, minimumDpr, ...size, reason };
+    this.#viewer.lessened = reason === 'frame-time' && scale < 1 ? detail : null;
+    this.#told.scaled(detail);
   }
 
   /** Where they cannot be loaded, nothing is drawn until something changes. */

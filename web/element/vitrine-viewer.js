@@ -3,6 +3,7 @@ import { Access } from './access.js';
 import { adoptProperties, attributes, defineProperties, readAttributes } from './attributes.js';
 import { listenToControls } from './controls.js';
 import { coreStatistics, loadCore } from './core.js';
+import { readGround } from './ground.js';
 import { Loader } from './loader.js';
 import { readBackground, wishOf } from './loading.js';
 import { parseFieldOfView, parseOrbit, parseTarget } from './orbit.js';
@@ -19,7 +20,7 @@ const spinPause = 3000; // milliseconds after the last touch
  * @fires camera-change {source: 'user-interaction'|'none'}
  * @fires warning {sentences}: what of the files is left out or changed
  * @fires frame {milliseconds}: one is on the screen, and how long it took
- * @fires render-scale {reportedDpr, renderedDpr, minimumDpr, pixelWidth, pixelHeight, preset, layers, steps, maxEvents, reason}
+ * @fires render-scale {reportedDpr, renderedDpr, minimumDpr, pixelWidth, pixelHeight, preset, layers, steps, maxEvents, branches, wavelengths, reason}
  */
 export class VitrineViewer extends HTMLElement {
   static observedAttributes = attributes.map(({ attribute }) => attribute);
@@ -241,8 +242,9 @@ export class VitrineViewer extends HTMLElement {
     const behind = readBackground(this.#background);
     const { technique, ior, roughness, dispersion, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, toneMapping, samples } = values;
     stage.cameraIndex = values.cameraIndex;
-    const shadow = values.shadowIntensity ?? Number(values.ground);
-    stage.glass = { ground: [Number(values.ground || shadow > 0), shadow, values.shadowSoftness], technique, ior, roughness: roughness ?? -1, dispersion: dispersion ?? -1, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'tone-mapping': toneMapping, background: behind, 'background-blur': behind.blur };
+    const { ground, problems: ofGround } = readGround(values);
+    problems.push(...ofGround);
+    stage.glass = { ground, technique, ior, roughness: roughness ?? -1, dispersion: dispersion ?? -1, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'tone-mapping': toneMapping, background: behind, 'background-blur': behind.blur };
     stage.quality.mode = values.quality;
 
     this.#access.describe(values);

@@ -70,7 +70,7 @@ static void everySettingCountsForGoingOn(void** state)
 static void presetsAreThoseOfTheHeader(void** state)
 {
     (void)state;
-    static const int wanted[vt_presetCount][4] = {{2, 25, 4, 0}, {4, 50, 8, 1}, {8, 100, 8, 2}};
+    static const int wanted[vt_presetCount][5] = {{2, 25, 4, 0, 1}, {4, 50, 8, 1, 3}, {8, 100, 8, 2, 3}};
     for (int preset = 0; preset < vt_presetCount; ++preset) {
         vtFrame frame = validFrame();
         frame.preset = (vtPreset)preset;
@@ -80,11 +80,13 @@ static void presetsAreThoseOfTheHeader(void** state)
         assert_int_equal(resolved.maxEvents, wanted[preset][2]);
         assert_int_equal(vtFrame_BranchCount(&frame), wanted[preset][3]);
         assert_int_equal(vtFrame_BranchCount(&resolved), wanted[preset][3]);
+        assert_int_equal(resolved.wavelengths, wanted[preset][4]);
         frame.steps = 40;
         vtFrame_Lessen(&frame, vt_presetLow);
         assert_int_equal(frame.layers, 2);
         assert_int_equal(frame.steps, 25);
         assert_int_equal(vtFrame_BranchCount(&frame), 0);
+        assert_int_equal(frame.wavelengths, 1);
         frame.steps = 7;
         vtFrame_Lessen(&frame, vt_presetLow);
         assert_int_equal(frame.steps, 7);
@@ -101,6 +103,7 @@ static void techniquesAreTheRowsThatTakeThem(void** state)
             bool takes;
         } cases[] = {{"layers", row->layers == VT_LAYERS_OF_FRAME},
                      {"branches", row->traces},
+                     {"wavelengths", row->traces},
                      {"multi", row->refract[vt_variantOrdered].name != NULL},
                      {"search", row->refract[vt_variantCells].name != NULL},
                      {"back-surface", row->innerDistances}};
