@@ -281,7 +281,8 @@ typedef struct vtMaterial {
     /// Glass: a wall without thickness. Light goes straight on; there is nothing inside. Default false: a
     /// body
     bool thin;
-    bool unlit;  ///< opaque: shows its base colour as it is
+    bool unlit;    ///< opaque: shows its base colour as it is
+    bool oneSided; ///< opaque, and no relief: rays pass through its triangles from behind. Default false
     float ior;   ///< index of refraction, 0.25 to 4, or 0: reflects everything. Glass that has less than what
                  ///< is around it is a bubble. Default 1.5
     vtVec3 tint; ///< glass: share of the light that passes a surface (base colour of glTF). Default 1, 1, 1
@@ -852,7 +853,7 @@ typedef struct vtRendererInfo {
 ///   discard, sample coverage and alpha to coverage, primitive restart; on desktop GL also sRGB framebuffers
 ///   and the logic operation;
 /// - depth function less, depth and colour masks all on, front faces counter-clockwise, blend function and
-///   equation unspecified; pixel storage as in a fresh context;
+///   equation and the faces to cull unspecified; pixel storage as in a fresh context;
 /// - the viewport that was drawn to; bound as draw and read framebuffer after vtRenderer_Draw
 ///   frame->framebuffer, after all other calls unspecified, after reading back 0.
 /// All else is as it was. An error that the host left unasked is dropped (not in browsers, where asking

@@ -83,6 +83,17 @@ export function rows({ pngOf }) {
         'alpha without a mode': { material: solid([...tint, 0.1]), value: times(times(behindTint, 1 - F), tint) },
       },
     },
+    sides: {
+      tiles: {
+        front: { material: unlit(paint), value: paint },
+        back: { material: unlit(paint), rotation: turned, value: backdrop },
+        'back of two sides': { material: unlit(paint, { doubleSided: true }), rotation: turned, value: paint },
+        'front, mirrored': { material: unlit(paint), scale: [-1, 1, 1], value: paint },
+        'back, mirrored': { material: unlit(paint), scale: [-1, 1, 1], rotation: turned, value: backdrop },
+        'back with a hole': { material: unlit([...paint, 0.5], { alphaMode: 'BLEND' }), rotation: turned, value: backdrop },
+        'a box, mirrored': { mesh: box(0.8, 0.8, 0.4), material: unlit(paint), scale: [1, 1, -1], value: paint },
+      },
+    },
     coverage: {
       pictures: [halves([255, 255, 255, 102], [255, 255, 255, 153]), halves([255, 255, 255, 51], [255, 255, 255, 204])],
       samplers: [nearest], textures: [{ source: 0, sampler: 0 }, { source: 1, sampler: 0 }],
@@ -194,7 +205,7 @@ export function rows({ pngOf }) {
         'a normal map': { material: matt(paint, { normalTexture: { index: 1 }, extensions: specular({ specularFactor: 0 }) }), value: times(paint, 0.801) },
         'half as strong': { material: matt(paint, { normalTexture: { index: 1, scale: 0.5 }, extensions: specular({ specularFactor: 0 }) }), value: times(paint, 0.9368) },
         'metal and roughness by a picture': { material: matt(paint, { pbr: { metallicFactor: 1, metallicRoughnessTexture: { index: 2 } } }), value: times(paint, 0.25) },
-        'from behind': { rotation: turned, material: matt(paint, { extensions: specular({ specularFactor: 0 }) }), value: paint },
+        'from behind, two-sided': { rotation: turned, material: matt(paint, { doubleSided: true, extensions: specular({ specularFactor: 0 }) }), value: paint },
       },
     },
     // The normal map leans to +u, or to -v in the picture, which is up: with the light or against it.

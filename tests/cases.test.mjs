@@ -9,7 +9,7 @@ import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { answerWithFile, chromiumPath, launch, listen, openPage, quiet, skipWithout } from './browser-tools.mjs';
-import { edited, matt, model, quad, solid, thin, unlit } from './case-models.mjs';
+import { ball, box, edited, matt, model, quad, solid, thin, unlit } from './case-models.mjs';
 import { drawingOf, rows } from './case-rows.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -322,6 +322,14 @@ describe('files', { skip }, () => {
       }
     });
   }
+
+  test('a box of one side is not seen from within', () => {
+    const file = write('within.glb', model([{ mesh: box(2, 2, 2), material: unlit([1, 0, 0]) }, { mesh: ball(0.2), material: solid([1, 1, 1]), translation: [0, 0, -5] }]));
+    for (const technique of techniques) {
+      const { picture } = draw([file, '-r', '60,40', '--camera', '0,0,0.5', '--target', '0,0,-5', '-t', technique]);
+      assert.equal(find(picture, (red, green, blue) => red > 200 && green + blue < 100).count, 0, technique);
+    }
+  });
 
   test('far-origin is as the same at the origin', () => {
     const far = draw(['-r', '200,200', '--object', fileOf('far-origin'), '--camera', '100000.5,20000.25,-49995', '--target', '100000,20000,-50000']).picture;

@@ -18,7 +18,7 @@ uniform usampler2D u_records;
 struct Hierarchy {
     uint first;
     vec3 low, scale;
-    bool bothSides; // opaque, or glass with open edges or parts that overlap
+    bool bothSides; // opaque of two sides, or glass with open edges or parts that overlap
 };
 
 Hierarchy readHierarchy(int object)

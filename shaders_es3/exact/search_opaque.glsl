@@ -21,9 +21,10 @@ OpaqueHit searchOpaque(vec3 origin, vec3 direction, float farthest)
         }
         if (object >= u_scene.x) {
             Transform transform = readTransform(object);
-            RecordHit hit = searchRecords(readHierarchy(object), toObject(transform, vec4(origin, 1.0)),
-                                          toObject(transform, vec4(direction, 0.0)), 0.0, 0.0, nearest.hit.distance,
-                                          VT_NO_TRIANGLE);
+            Hierarchy tree = readHierarchy(object);
+            RecordHit hit = searchRecords(tree, toObject(transform, vec4(origin, 1.0)),
+                                          toObject(transform, vec4(direction, 0.0)), float(!tree.bothSides), 0.0,
+                                          nearest.hit.distance, VT_NO_TRIANGLE);
             bool isNearer = hit.triangle != VT_NO_TRIANGLE;
             nearest.hit.distance = isNearer ? hit.distance : nearest.hit.distance;
             nearest.hit.triangle = isNearer ? hit.triangle : nearest.hit.triangle;

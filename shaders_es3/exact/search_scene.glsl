@@ -73,7 +73,7 @@ Meeting meetObject(Start start, int object, float farthest)
     bool isOpaque = object >= u_scene.x;
     // An eye within the box may be within the glass: the first surface then tells.
     bool isAbout = start.isEye && all(greaterThan(start.position, at.low.xyz)) && all(lessThan(start.position, at.high));
-    float side = at.tree.bothSides || isAbout ? 0.0 : inside ? -1.0 : 1.0;
+    float side = at.tree.bothSides || (isAbout && !isOpaque) ? 0.0 : inside ? -1.0 : 1.0;
     float nearest = start.isEye ? 0.0 : isOpaque ? (start.isBehind ? -samePlace() : samePlace()) : 1e-5 * at.low.w;
     uint from = start.object == object ? start.triangle : VT_NO_TRIANGLE;
     RecordHit hit = searchRecords(at.tree, toObject(at.transform, vec4(start.position, 1.0)),

@@ -45,6 +45,7 @@
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                   \
     X(PFNGLENABLEPROC, Enable)                                                                               \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                             \
+    X(PFNGLCULLFACEPROC, CullFace)                                                                           \
     X(PFNGLFRONTFACEPROC, FrontFace)                                                                         \
     X(PFNGLFINISHPROC, Finish)                                                                               \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                   \

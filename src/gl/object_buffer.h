@@ -11,6 +11,6 @@ typedef struct vtObjectBuffer {
     vtVec3 ownMin, ownMax;              ///< the mesh's box in the object's own coordinates
     uint32_t firstAttribute, firstMore; ///< records of its attributes, or VT_NO_TRIANGLE
     uint32_t colorLayer, roughLayer;    ///< of the array of images: its first two maps; or VT_NO_TRIANGLE
-    bool bothSides; ///< opaque, or glass with open edges, parts that overlap or holes (alpha): rays meet its
-                    ///< triangles from either side
+    bool bothSides; ///< opaque but for vtMaterial.oneSided, or glass with open edges, parts that overlap or
+                    ///< holes (alpha): rays meet its triangles from either side
 } vtObjectBuffer;

@@ -102,8 +102,9 @@ static void keepObjects(vtSceneBuffer* buffer, const vtPlacedObject* placed)
                              : VT_NO_TRIANGLE,
             .colorLayer = vtImageArray_Layer(&buffer->images, &material->maps[0], vt_mapBaseColor),
             .roughLayer = vtImageArray_Layer(&buffer->images, &material->maps[1], vt_mapMetallicRoughness),
-            .bothSides = material->opaque || material->alphaMode != vt_alphaOpaque || placed[i].thin ||
-                         shape->openEdgeCount > 0 || geometry->overlaps,
+            .bothSides = material->opaque ? !material->oneSided
+                                          : material->alphaMode != vt_alphaOpaque || placed[i].thin ||
+                                                shape->openEdgeCount > 0 || geometry->overlaps,
         };
         looks = looks || placed[i].thin || !vtMaterial_IsPlain(material, geometry->colored) ||
                 (!material->opaque && buffer->instances[placed[i].object].body != 0);
@@ -323,7 +324,15 @@ void vtSceneBuffer_Draw(const vtSceneBuffer* buffer, const vtGL* gl, const vtPro
         gl->Uniform4fv(program->uniforms[1], 3, &placed->toObject.rows[0][0]);
         gl->Uniform1i(program->uniforms[2], (GLint)i);
         gl->Uniform1i(program->uniforms[3], placed->mirrored);
+        const bool oneSided = buffer->objects[i].material.opaque && buffer->objects[i].material.oneSided;
+        if (oneSided) {
+            gl->Enable(GL_CULL_FACE);
+            gl->CullFace(placed->mirrored ? GL_FRONT : GL_BACK);
+        }
         vtMeshBuffer_Draw(&buffer->geometry.items[buffer->objects[i].geometry].vertices, gl);
+        if (oneSided) {
+            gl->Disable(GL_CULL_FACE);
+        }
     }
 }
 

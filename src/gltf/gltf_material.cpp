@@ -2,7 +2,6 @@
 // _specular, _iridescence, _dispersion and _unlit.
 //
 // Glass is what has a share that passes. It is a thin wall unless KHR_materials_volume gives it a thickness.
-// Both sides of a surface are drawn, doubleSided or not.
 
 #include "gltf/gltf.h"
 
@@ -178,6 +177,7 @@ static bool readMaterial(Loader& loader, int index, vtMaterial* material)
     }
     material->unlit = given.extensions.count("KHR_materials_unlit") > 0;
     material->opaque = !(transmission > 0.0) || material->unlit;
+    material->oneSided = material->opaque && !given.doubleSided;
     material->transmission = (float)std::min(transmission, 1.0);
     material->thin = !material->opaque && !(thickness > 0.0);
     return material->opaque || readAttenuation(loader, index, material);

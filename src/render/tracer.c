@@ -205,8 +205,8 @@ static bool findNearest(const vtTracer* tracer, const vtMedia* media, vtVec3 ori
     for (uint32_t i = 0; i < count; ++i) {
         const bool isOpaque = i >= tracer->glassCount;
         const vtPlacedObject* placed = &tracer->placed[i];
-        const bool anySide = isOpaque || start <= 0.0f || placed->thin;
-        const int sides = anySide ? 3 : vtMedia_Holds(media, placed->body + 1) ? 2 : 1;
+        const bool anySide = isOpaque ? !placed->material->oneSided : start <= 0.0f || placed->thin;
+        const int sides = anySide ? 3 : !isOpaque && vtMedia_Holds(media, placed->body + 1) ? 2 : 1;
         Spot spot;
         if (!traceObject(tracer, i, origin, direction, start, sides, &spot)) {
             continue;

@@ -34,7 +34,8 @@ bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh)
         memcpy(indices, mesh->indices, sizeof(uint32_t) * mesh->indexCount);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // no rays through cracks along edges
+        // No rays through cracks along edges.
+        rtcSetSceneFlags(scene, rtcGetSceneFlags(scene) | RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
         rtcCommitScene(scene);
     }
@@ -52,6 +53,17 @@ static float measureExtent(const vtScene* scene)
     return fmaxf(fmaxf(diagonal, distance), 1e6f * FLT_MIN);
 }
 
+/// Has some object of that mesh only one side?
+static bool isOneSided(const vtReference* reference, uint32_t mesh)
+{
+    bool found = false;
+    for (uint32_t i = reference->glassCount; i < reference->objectCount; ++i) {
+        const vtPlacedObject* object = &reference->objects[i];
+        found = found || (object->meshIndex == mesh && object->material->oneSided);
+    }
+    return found;
+}
+
 static vtResult fillReference(vtReference* reference, vtError* error)
 {
     reference->device = rtcNewDevice(NULL);
@@ -64,6 +76,9 @@ static vtResult fillReference(vtReference* reference, vtError* error)
         RTCScene* mesh = &reference->meshes[object->meshIndex];
         if (*mesh == NULL) {
             *mesh = rtcNewScene(reference->device);
+            if (isOneSided(reference, object->meshIndex)) {
+                rtcSetSceneFlags(*mesh, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION); // passBacks
+            }
             const bool isRelief = object->mesh->indexCount == 0;
             const bool isFilled =
                 *mesh != NULL &&
@@ -214,6 +229,22 @@ static void aimAt(const vtReference* reference, uint32_t object, const vtReferen
     }
 }
 
+/// Embree asks about every triangle that lanes meet: one that they come at from behind is none. Rays and hits
+/// are arrays, a field of all lanes after the other (rtcore_ray.h).
+static void passBacks(const struct RTCFilterFunctionNArguments* arguments)
+{
+    const unsigned n = arguments->N;
+    const float *direction = (const float*)(const void*)arguments->ray + 4 * n,
+                *normal = (const float*)(const void*)arguments->hit;
+    for (unsigned i = 0; i < n; ++i) {
+        float along = 0.0f;
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            along += direction[axis * n + i] * normal[axis * n + i];
+        }
+        arguments->valid[i] = along > 0.0f ? 0 : arguments->valid[i];
+    }
+}
+
 void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths, const uint32_t* numbers,
                       int count, bool coherent, vtMeeting* meetings)
 {
@@ -254,6 +285,7 @@ void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths
         }
         struct RTCRayHit8 query;
         aimAt(reference, object, paths, numbers, count, meetings, &query);
+        context.filter = placed->material->opaque && placed->material->oneSided ? passBacks : NULL;
         rtcIntersect8(valid, reference->meshes[placed->meshIndex], &context, &query);
         for (int lane = 0; lane < count; ++lane) {
             if (query.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) {
