@@ -19,9 +19,9 @@ const decoderFiles = [...decoders.map((name) => `element/${name}.js`), 'element/
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
-for (const name of ['vitrine-core.wasm', 'vitrine-shaders.txt']) cpSync(join(web, name), join(folder, name));
+for (const name of ['vitrine-core.wasm', 'vitrine-three.wasm', 'vitrine-shaders.txt']) cpSync(join(web, name), join(folder, name));
 const small = { format: 'esm', minify: true, target: 'es2022', logLevel: 'warning' };
-await build({ ...small, entryPoints: [join(web, 'vitrine-core.js')], outdir: folder });
+for (const name of ['vitrine-core.js', 'vitrine-three.js']) await build({ ...small, entryPoints: [join(web, name)], outdir: folder });
 const { attributes, types, manifest } = await describeElement(join(web, 'element/attributes.js'));
 
 /** Leaves out what the attributes are, in words: only the documentation reads it. */
@@ -44,6 +44,11 @@ await build({
   plugins: [withoutDescriptions],
   outdir: join(folder, 'element'),
 });
+
+// Glass in three.js, and a component of React Three Fiber on it.
+await build({ ...small, entryPoints: [join(web, 'three/index.js')], bundle: true, external: ['three', '../vitrine-three.js'], outdir: join(folder, 'three') });
+await build({ ...small, entryPoints: [join(web, 'three/fiber.js')], outdir: join(folder, 'three') });
+for (const name of ['index.d.ts', 'fiber.d.ts']) cpSync(join(root, 'web/three', name), join(folder, 'three', name));
 
 writeFileSync(join(folder, 'index.d.ts'), types);
 writeFileSync(join(folder, 'custom-elements.json'), `${JSON.stringify(manifest, null, 2)}\n`);
@@ -97,12 +102,17 @@ writeFileSync(
       exports: {
         '.': { types: './index.d.ts', default: './element/vitrine-viewer.js' },
         './bundle': { types: './index.d.ts', default: './vitrine-viewer.bundle.js' },
+        './three': { types: './three/index.d.ts', default: './three/index.js' },
+        './fiber': { types: './three/fiber.d.ts', default: './three/fiber.js' },
         './vitrine-core.wasm': './vitrine-core.wasm',
+        './vitrine-three.wasm': './vitrine-three.wasm',
         './vitrine-shaders.txt': './vitrine-shaders.txt',
         './custom-elements.json': './custom-elements.json',
       },
       sideEffects: ['./element/vitrine-viewer.js', './vitrine-viewer.bundle.js'],
-      files: ['element', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', 'index.d.ts', 'custom-elements.json', 'NOTICES.txt'],
+      peerDependencies: { '@react-three/fiber': '>=8', react: '>=18', three: '>=0.163' },
+      peerDependenciesMeta: Object.fromEntries(['@react-three/fiber', 'react', 'three'].map((name) => [name, { optional: true }])),
+      files: ['element', 'three', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-three.js', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', 'index.d.ts', 'custom-elements.json', 'NOTICES.txt'],
       customElements: 'custom-elements.json',
       keywords: ['glass', 'refraction', 'webgl', 'wasm', 'gltf', 'custom-element', 'web-components'],
     },
@@ -123,5 +133,7 @@ const weigh = (name, when = '') => {
 };
 const sum = loaded.reduce((bytes, name) => bytes + weigh(name), 0);
 console.log(`  all that the element loads: ${(sum / 1000).toFixed(1)} KB gzip`);
+const ofThree = ['vitrine-three.wasm', 'vitrine-three.js', 'three/index.js'].reduce((bytes, name) => bytes + weigh(name, ', of vitrine-viewer/three'), 0);
+console.log(`  all that vitrine-viewer/three loads: ${(ofThree / 1000).toFixed(1)} KB gzip`);
 weigh('vitrine-shaders.txt', ', loaded once a picture needs it');
 for (const name of decoderFiles) weigh(name, ', loaded once a file needs it');

@@ -758,16 +758,22 @@ typedef struct vtFrame {
     const float *viewMatrix, *projectionMatrix;
     /// Over what the framebuffer has: drawn only where there is something of the scene, blended at its edges,
     /// tested against the framebuffer's depth, if it has any, and written with its own. Needs the matrices,
-    /// and a technique with a first surface (not kay's). A build for web pages looks at none of this.
+    /// and a technique with a first surface (not kay's). The element's build looks at none of this.
     /// Default false
     bool overlay;
     /// GL names of 2-D textures with the host's picture and its depth, as large as the framebuffer, which
     /// must not be that framebuffer's own: what lies behind the glass, seen through it wherever the bent ray
     /// comes to lie behind what is drawn there, and with `overlay` what hides it; where the ray leaves the
-    /// picture or passes behind something there is the environment. Depths need the matrices; without them
-    /// all of the picture is infinitely far away. 0, the default: none
+    /// picture or ends behind something there is the environment. Depths need the matrices; without them all
+    /// of the picture is infinitely far away. 0, the default: none
     uint32_t hostColor, hostDepth;
     bool hostLinear; ///< hostColor reads as linear light (floats, sRGB formats); else as sRGB. Default false
+    bool hostLevels; ///< hostColor has all its mip levels: rough glass sees it blurred, else sharp. Default
+                     ///< false
+    /// The host draws what is opaque in the scene itself, and into hostColor: seen directly it is left to the
+    /// host, and glass sees it as the host has drawn it where hostColor shows it, else as it is here. Default
+    /// false
+    bool hostOpaque;
     /// For measurements: called when the GL commands of a stage have been issued. Default NULL.
     vtStageFcn* stageDone;
     void* stageData; ///< passed to stageDone

@@ -16,7 +16,7 @@ layout(std140) uniform Frame
     ivec4 u_scene;   // objects of glass, objects, Fresnel reflection, the technique finds what is opaque itself
     ivec4 u_output;  // vtOutput, layer, vtEnvironmentKind, vtBackground
     ivec4 u_host;    // the picture's lower left corner in the framebuffer; whether linear light is wanted;
-                     // 1: the host gives colours, 2: depths, 4: its colours are linear
+                     // 1: the host gives colours, 2: depths, 4: its colours are linear, 8: they have levels, 16: it draws what is opaque
     vec4 u_clip;     // third row of the host's projection: element of depth, constant; depth from which on there is
                      // nothing; 1: it is orthographic, and tangents are world units
     ivec4 u_sample; // its number; 1: chance chooses what its paths follow (trace.frag); what it weighs in

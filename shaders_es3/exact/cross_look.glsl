@@ -3,6 +3,10 @@
 // what it mirrors: the path follows the strongest, the others are set aside. Takes the place of crossSurface. Needs
 // looks, media, objects, optics and path; of rough glass rough.
 
+#ifdef WITH_BACKDROP
+vec3 asHostShows(vec3 position, vec3 light); // backdrop.glsl
+#endif
+
 // Takes the path through; `isLast`: it has no event left. False where it ends, `status` says how.
 bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeting met, bool isLast, inout int status)
 {
@@ -12,7 +16,13 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeti
     vec3 N = leaving ? -look.N : look.N, G = leaving ? -look.G : look.G;
     Start from = Start(p.position, I, media, object, met.triangle, false, false, false);
     vec3 covered = p.transmittance * look.base.a, beside = p.transmittance - covered;
-    vec3 sent = covered * sentLight(look, dot(N, I) < 0.0 ? N : G, I, from, met.at);
+    vec3 sent = sentLight(look, dot(N, I) < 0.0 ? N : G, I, from, met.at);
+#ifdef WITH_BACKDROP
+    if (object >= u_scene.x) {
+        sent = asHostShows(p.position, sent);
+    }
+#endif
+    sent *= covered;
 #ifdef WITH_ROUGH
     bool isOpaque = object >= u_scene.x;
     p.seen += isOpaque ? sent : vec3(0.0);

@@ -54,6 +54,16 @@ End noEnd(int status)
     return end;
 }
 
+// Where the host draws what is opaque, seen directly it covers nothing of the pixel.
+int leftToHost(bool isEye, int status)
+{
+#if defined(WITH_BACKDROP) && defined(WITH_OPAQUE)
+    return isEye && status == VT_PATH_OPAQUE && (u_host.w & 16) != 0 ? VT_PATH_BACKGROUND : status;
+#else
+    return status;
+#endif
+}
+
 // isFresh: the path begins at the eye. isDirect: glass does not count, only what is opaque.
 End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
 {
@@ -76,6 +86,7 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
         bool isLast = p.events >= u_search.w;
         bool isOut = !isMet && (start.media == AIR || isDirect);
         end.status = isOut ? (start.isEye ? VT_PATH_BACKGROUND : VT_PATH_EXITED) : isOpaque ? VT_PATH_OPAQUE : end.status;
+        end.status = leftToHost(start.isEye, end.status);
 #ifdef WITH_LOOKS
         bool more = isMet;
 #else
@@ -135,6 +146,7 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
             vec3 arriving = look.base.a * p.transmittance;
 #endif
             more = crossLook(p, media, look, hit, met, isLast, end.status);
+            end.status = leftToHost(start.isEye, end.status);
             more = more && (p.events < u_search.w || media == AIR);
 #ifdef WITH_PHOTONS
             bool isLanding = end.status == VT_PATH_OPAQUE;
@@ -180,18 +192,9 @@ vec3 lightAlong(Path p, End end)
     width = footprintWidth(p.footprint.direction);
 #endif
 #ifdef WITH_ROUGH
-    vec3 light = specularLight(p.direction, lobeRoughness(p.lobe), width);
-#ifdef WITH_SHADE
-    light += u_sun[3].rgb * sunGlare(u_sun[2], p.direction, lobeRoughness(p.lobe));
-#endif
-#ifdef WITH_GROUND
-    light = groundLight(p.position, p.direction, light);
-#endif
-    if (p.lobe.z <= 0.0) {
-        light = surroundings(p.position, p.direction, width);
-    }
+    vec3 light = surroundings(p.position, p.direction, width, p.lobe);
 #else
-    vec3 light = surroundings(p.position, p.direction, width); // a lost path sees it, too
+    vec3 light = surroundings(p.position, p.direction, width, vec3(0.0)); // a lost path sees it, too
 #endif
 #if defined(WITH_OPAQUE) && !defined(WITH_LOOKS)
     if (opaque.triangle != VT_NO_TRIANGLE) {
@@ -219,6 +222,9 @@ vec3 lightAlong(Path p, End end)
         light = shadeOpaque(opaque.object, at, p.direction, p.footprint);
 #else
         light = shadeOpaque(opaque.object, at, p.direction, 0.0); // no picture is seen
+#endif
+#ifdef WITH_BACKDROP
+        light = asHostShows(p.position, light);
 #endif
     }
 #endif

@@ -4,13 +4,14 @@
 //   Morgan McGuire, Michael Mara. Efficient GPU Screen-Space Ray Tracing. JCGT 3(4), 2014: steps that are even in the
 //   picture, not in space.
 // Departures: steps go from the ray's beginning to infinity, in homogeneous coordinates; where it comes to pass behind
-// something, the crossing is halved down to, and it counts where the depth is the same on both sides of it. A ray that
-// meets nothing and ends in the picture sees what the host has drawn infinitely far away there.
+// something, the crossing is halved down to, and it counts where the depth is the same on both sides of it, else the ray goes
+// on. One that meets nothing and ends in the picture before all else sees what the host has drawn infinitely far away there.
 uniform sampler2D u_hostColor;
 
 // Far more steps than presets have (u_search.y).
 const int MOST_HOST_STEPS = 1000;
 const int HOST_HALVINGS = 8;
+const int MOST_HOST_CROSSINGS = 4; // of things that a ray passes behind, and of what it meets
 
 // A point of the ray, `s` from 0 to 1: pixel of the picture, and depth. Depth 0 or less: behind the eye.
 vec3 hostPoint(vec3 from, vec3 towards, float s)
@@ -33,15 +34,44 @@ float depthAt(vec3 point)
     return hostDepth(ivec2(floor(point.xy)) + u_host.xy);
 }
 
-vec3 hostColor(vec3 point)
+// `spread`: standard deviation of the places that are seen, pixels.
+vec3 hostColor(vec3 point, float spread)
 {
-    ivec2 pixel = clamp(ivec2(floor(point.xy)) + u_host.xy, ivec2(0), textureSize(u_hostColor, 0) - 1);
-    vec3 color = max(texelFetch(u_hostColor, pixel, 0).rgb, 0.0);
+    ivec2 size = textureSize(u_hostColor, 0), pixel = clamp(ivec2(floor(point.xy)) + u_host.xy, ivec2(0), size - 1);
+    vec3 color = texelFetch(u_hostColor, pixel, 0).rgb;
+#ifdef WITH_ROUGH
+    // A texel of level n, blended with its neighbours, has a standard deviation of half its width.
+    float level = (u_host.w & 8) != 0 ? log2(max(2.0 * spread, 1.0)) : 0.0;
+    vec2 place = (point.xy + vec2(u_host.xy)) / vec2(size), apart = 0.5 * exp2(level) / vec2(size);
+    vec3 blurred = vec3(0.0);
+    for (int i = 0; i < 4; ++i) { // a level's texels show where only one is read
+        vec2 corner = vec2(i & 1, i >> 1) - 0.5;
+        blurred += 0.25 * textureLod(u_hostColor, place + corner * apart, max(level - 0.5, 0.0)).rgb;
+    }
+    color = mix(color, blurred, step(0.01, level));
+#endif
+    color = max(color, 0.0);
     return (u_host.w & 4) != 0 ? color : srgbToLinear(color);
 }
 
-// Light from the host's picture along a ray in the world; false where it does not show what the ray meets.
-bool lightFromHost(vec3 position, vec3 direction, out vec3 light)
+// Pixels that a length in front of the eye takes, at a depth; of a direction's share at depth 1.
+float hostPixels(float depth)
+{
+    return float(u_size.y) / ((u_pictureFrustum.w - u_pictureFrustum.y) * (u_clip.w != 0.0 ? 1.0 : depth));
+}
+
+// Light that comes from a place of something opaque of ours, which the host draws as well: as it has drawn it, where that is
+// seen in its picture, else as it is.
+vec3 asHostShows(vec3 position, vec3 light)
+{
+    vec3 point = hostPoint((u_worldToCamera * vec4(position, 1.0)).xyz, vec3(0.0), 0.0);
+    bool isShown = (u_host.w & 17) == 17 && isOnHost(point) && abs(depthAt(point) - point.z) < 0.005 * point.z;
+    return isShown ? hostColor(point, 0.0) / u_optics.z : light;
+}
+
+// Light from the host's picture along a ray in the world; false where it does not show what the ray meets. lobe: of rough
+// glass, else zeros.
+bool lightFromHost(vec3 position, vec3 direction, vec3 lobe, out vec3 light)
 {
     light = vec3(0.0);
     if ((u_host.w & 1) == 0) {
@@ -52,32 +82,44 @@ bool lightFromHost(vec3 position, vec3 direction, out vec3 light)
     // Half of the steps lie nearer than the eye is.
     towards *= u_clip.w != 0.0 ? min(u_clip.z, 1e6) : max(from.z, 1e-6);
     float step = 1.0 / float(u_search.y), s = 0.0;
-    bool isFront = true, isCrossed = false, isInside = true;
-    for (int i = 0; i < MOST_HOST_STEPS; ++i) {
-        vec3 next = hostPoint(from, towards, s + step);
-        isInside = isOnHost(next);
-        bool isBehind = isInside && next.z >= depthAt(next);
-        isCrossed = isBehind && isFront;
-        isFront = !isBehind;
-        s = isCrossed ? s : s + step;
-        if (!isInside || isCrossed || s >= 1.0 - 0.5 * step) {
+    bool isFront = true, isCrossed = false, isInside = true, isMet = false;
+    vec3 behind = from;
+    for (int crossing = 0; crossing < MOST_HOST_CROSSINGS; ++crossing) {
+        for (int i = 0; i < MOST_HOST_STEPS; ++i) {
+            vec3 next = hostPoint(from, towards, s + step);
+            isInside = isOnHost(next);
+            bool isBehind = isInside && next.z >= depthAt(next);
+            isCrossed = isBehind && isFront;
+            isFront = !isBehind;
+            s = isCrossed ? s : s + step;
+            if (!isInside || isCrossed || s >= 1.0 - 0.5 * step) {
+                break;
+            }
+        }
+        float low = s, part = step;
+        for (int i = 0; i < HOST_HALVINGS; ++i) {
+            part *= 0.5;
+            vec3 middle = hostPoint(from, towards, low + part);
+            low += middle.z >= depthAt(middle) ? 0.0 : part;
+        }
+        vec3 before = hostPoint(from, towards, low);
+        behind = hostPoint(from, towards, low + part);
+        float depth = depthAt(behind);
+        // A surface that the ray comes to lie behind, not the edge of one that it passes behind: it goes on beyond that.
+        isMet = isCrossed && behind.z - depth <= 0.05 * depth + 2.0 * abs(behind.z - before.z);
+        s += step;
+        if (!isCrossed || isMet) {
             break;
         }
     }
-    vec3 end = hostPoint(from, towards, s);
-    float ahead = 0.0;
-    for (int i = 0; i < HOST_HALVINGS; ++i) {
-        step *= 0.5;
-        vec3 middle = hostPoint(from, towards, s + step);
-        bool isBehind = middle.z >= depthAt(middle);
-        s = isCrossed && !isBehind ? s + step : s;
-    }
-    vec3 before = hostPoint(from, towards, s), behind = hostPoint(from, towards, s + step);
-    float depth = depthAt(behind);
-    // A surface that the ray comes to lie behind, not the edge of one that it passes behind.
-    bool isMet = isCrossed && behind.z - depth <= 0.05 * depth + 2.0 * abs(behind.z - before.z);
     vec3 infinite = hostPoint(from, towards, 1.0);
-    bool isSky = !isCrossed && isInside && isOnHost(infinite) && depthAt(infinite) == NOTHING_BEHIND && u_clip.w == 0.0;
-    light = hostColor(isMet ? behind : infinite) / u_optics.z; // exposure is not for it
+    bool isSky = !isCrossed && isFront && isInside && isOnHost(infinite) && depthAt(infinite) == NOTHING_BEHIND && u_clip.w == 0.0;
+    float spread = 0.0;
+#ifdef WITH_ROUGH
+    float distance = length((behind.z - from.z) / (abs(towards.z) > 1e-9 ? towards.z : 1e-9) * towards);
+    float seen = lobe.x + distance * (2.0 * lobe.y + distance * lobe.z); // as lobeAfter; of two axes
+    spread = isMet ? sqrt(0.5 * max(seen, 0.0)) * hostPixels(behind.z) : sqrt(0.5 * lobe.z) * hostPixels(1.0);
+#endif
+    light = hostColor(isMet ? behind : infinite, spread) / u_optics.z; // exposure is not for it
     return isMet || isSky;
 }

@@ -99,7 +99,7 @@ void main()
         ray.origin = i == 1 ? first.origin : i == 2 ? aside.origin : ray.origin;
         ray.direction = i == 1 ? first.direction : i == 2 ? aside.direction : ray.direction;
         ray.weight = i == 1 ? first.weight : i == 2 ? aside.weight : ray.weight;
-        vec3 seen = surroundings(ray.origin, ray.direction, i == 0 ? width : 0.0); // a lost path sees it, too
+        vec3 seen = surroundings(ray.origin, ray.direction, i == 0 ? width : 0.0, vec3(0.0)); // a lost path sees it, too
 #ifdef WITH_OPAQUE
         OpaqueHit opaque = known;
         if (i > 0 || isSearched) {

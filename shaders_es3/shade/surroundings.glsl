@@ -4,13 +4,23 @@
 uniform sampler2D u_environment;
 #endif
 
-// `width`: the angle that is covered.
-vec3 surroundings(vec3 position, vec3 direction, float width)
+// `width`: the angle that is covered; lobe: of rough glass (rough.glsl), else zeros.
+vec3 surroundings(vec3 position, vec3 direction, float width, vec3 lobe)
 {
+#ifdef WITH_ROUGH
+    vec3 light = specularLight(direction, lobeRoughness(lobe), width);
+#ifdef WITH_SHADE
+    light += u_sun[3].rgb * sunGlare(u_sun[2], direction, lobeRoughness(lobe));
+#endif
+    if (lobe.z <= 0.0) {
+        light = environmentRadiance(u_output.z, u_environment, direction, width);
+    }
+#else
     vec3 light = environmentRadiance(u_output.z, u_environment, direction, width);
+#endif
 #ifdef WITH_BACKDROP
     vec3 seen;
-    if (lightFromHost(position, direction, seen)) {
+    if (lightFromHost(position, direction, lobe, seen)) {
         light = seen;
     }
 #endif

@@ -17,9 +17,11 @@
 #endif
 
 /// Views as matrices, and pictures of a host's: vtFrame.viewMatrix, overlay and hostColor. A page's element
-/// has its canvas to itself, and goes without what it does not use.
+/// has its canvas to itself, and goes without what it does not use; the build for three.js says 1.
+#ifndef VT_WITH_HOST
 #ifndef __EMSCRIPTEN__
 #define VT_WITH_HOST 1
 #else
 #define VT_WITH_HOST 0
+#endif
 #endif

@@ -1,4 +1,4 @@
-// The host's picture and its depth as a frame reads them: textures of the host's, read through a sampler of
+// The host's picture and its depth as a frame reads them: textures of the host's, read through samplers of
 // ours, so that how the host filters or compares them does not matter.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 typedef struct vtHostPicture {
     GLuint color, depth; ///< 0: none
-    GLuint sampler;      ///< nearest, no comparison
+    GLuint samplers[2];  ///< of both, without comparison: nearest, of colours with levels blended
 } vtHostPicture;
 
 static inline bool vtHostPicture_IsThere(const vtHostPicture* host)
@@ -15,17 +15,18 @@ static inline bool vtHostPicture_IsThere(const vtHostPicture* host)
 }
 
 #if VT_WITH_HOST
-/// Makes the sampler, where it is not there yet.
-void vtHostPicture_Set(vtHostPicture* host, const vtGL* gl, GLuint color, GLuint depth);
+/// Makes the samplers, where they are not there yet. `levels`: the colours have all of theirs.
+void vtHostPicture_Set(vtHostPicture* host, const vtGL* gl, GLuint color, GLuint depth, bool levels);
 
-/// Binds both, to be unbound after the drawing: the sampler must not stay.
+/// Binds both, to be unbound after the drawing: the samplers must not stay.
 void vtHostPicture_Bind(const vtHostPicture* host, const vtGL* gl);
 void vtHostPicture_Unbind(const vtHostPicture* host, const vtGL* gl);
 void vtHostPicture_Destroy(vtHostPicture* host, const vtGL* gl);
 #else
-static inline void vtHostPicture_Set(vtHostPicture* host, const vtGL* gl, GLuint color, GLuint depth)
+static inline void vtHostPicture_Set(vtHostPicture* host, const vtGL* gl, GLuint color, GLuint depth,
+                                     bool levels)
 {
-    (void)host, (void)gl, (void)color, (void)depth;
+    (void)host, (void)gl, (void)color, (void)depth, (void)levels;
 }
 static inline void vtHostPicture_Bind(const vtHostPicture* host, const vtGL* gl)
 {

@@ -164,7 +164,7 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     }
     const vtGL* gl = &renderer->gl;
     const GLuint hidden = vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? frame->hostDepth : 0;
-    vtHostPicture_Set(&renderer->host, gl, frame->hostColor, hidden);
+    vtHostPicture_Set(&renderer->host, gl, frame->hostColor, hidden, frame->hostLevels);
     renderer->nearIsGreater = camera.clip[camera.orthographic ? 0 : 1] > 0.0f;
     vtFrameUniforms uniforms;
     vtProgramList programs = {0};

@@ -96,7 +96,8 @@ void vtMakeUniforms(const vtSceneBuffer* scene, const vtFrame* frame, const vtCa
                   row->findsOpaque && !vtVariant_IsOrdered(vtFrame_Variant(frame, true))},
         .output = {frame->output, frame->layer, environment, frame->background},
         .host = {frame->x, frame->y, frame->linear,
-                 (frame->hostColor != 0) + 2 * (frame->hostDepth != 0) + 4 * frame->hostLinear},
+                 (frame->hostColor != 0) + 2 * (frame->hostDepth != 0) + 4 * frame->hostLinear +
+                     8 * frame->hostLevels + 16 * frame->hostOpaque},
     };
     setCamera(uniforms, camera);
     setFrustum(uniforms->pictureFrustum, uniforms->pictureDepth, &picture);

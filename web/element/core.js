@@ -1,6 +1,7 @@
 // The compiled module, loaded once a page, and one Viewer (web/core/viewer.c) for each canvas.
 import createVitrine from '../vitrine-core.js';
 import { attributes } from './attributes.js';
+import { placeShaders } from './later-shaders.js';
 import { openInCore, placePicture } from './picture.js';
 
 /** Browsers keep about 16 contexts; some are left to the rest of the page. */
@@ -29,20 +30,9 @@ export function loadCore(from = {}) {
 
 /** vitrine-shaders.txt, which most pages need not: once, unless that failed. @returns {Promise<number>} where it is in the core's memory */
 function loadShaders(core) {
-  const name = 'vitrine-shaders.txt';
-  const fetchThem = async () => {
-    const response = places.laterShaders ? new Response(places.laterShaders) : await fetch(places.locateFile?.(name) ?? new URL('../vitrine-shaders.txt', import.meta.url));
-    if (!response.ok) throw new Error(`the server answered ${response.status}; serve it beside vitrine-core.wasm`);
-    const bytes = new Uint8Array(await response.arrayBuffer()).map((byte) => (byte === 12 ? 0 : byte)); // as vtRenderer_SetLaterShaders has it
-    const place = core._malloc(bytes.length + 2);
-    if (place === 0) throw new Error('out of memory');
-    core.HEAPU8.set(bytes, place);
-    core.HEAPU8.fill(0, place + bytes.length, place + bytes.length + 2);
-    return place;
-  };
-  shaders ??= fetchThem().catch((reason) => {
+  shaders ??= placeShaders(core, places).catch((reason) => {
     shaders = null;
-    throw new Error(`${name} cannot be loaded: ${reason.message}`, { cause: reason });
+    throw reason;
   });
   return shaders;
 }
