@@ -34,6 +34,12 @@ const events = [
 const properties = [
   { name: 'loaded', type: 'boolean', description: 'True while a model is shown.' },
   { name: 'warnings', type: 'string[]', description: 'What of the model’s files is left out or changed, sentences; `VitrineViewer.statistics()` has those of all elements.' },
+  { name: 'modelIsVisible', type: 'boolean', description: 'The poster is gone and the model can be seen.' },
+  {
+    name: 'materials',
+    type: '{ readonly opaque: boolean; ior: number; tint: number[]; absorption: number[]; absorptionDistance: number; roughness: number; dispersion: number }[]',
+    description: 'Of what is shown, in the order of the files; each property can be set, as the keys of `objects` have it, and stays until there is another model.',
+  },
   { name: 'availableVariants', type: 'string[]', description: 'Names of the variants of materials that the files shown have, for variant-name.' },
 ];
 
@@ -46,6 +52,10 @@ const methods = [
     description: 'The view as camera-orbit has it: radians, and the model’s unit.',
   },
   { signature: 'getCameraTarget(): { x: number; y: number; z: number }', description: 'The point looked at, world.' },
+  { signature: 'getFieldOfView(): number', description: 'Vertical, degrees, as it is now.' },
+  { signature: 'jumpCameraToGoal(): void', description: 'The view is where attributes and visitor want it, without the way there.' },
+  { signature: 'getDimensions(): { x: number; y: number; z: number } | null', description: 'Sides of the box around all that is shown; null where nothing is.' },
+  { signature: 'getBoundingBoxCenter(): { x: number; y: number; z: number } | null', description: 'Its middle, world.' },
   { signature: 'project(points: number[][]): number[][]', description: 'World points in client coordinates, as they are seen now.' },
   {
     signature:
@@ -58,11 +68,19 @@ const methods = [
 const slots = [
   { name: 'poster', description: 'Stands until the first frame.' },
   { name: 'progress-bar', description: 'In place of the built-in progress bar.' },
+  {
+    name: 'hotspot-…',
+    description:
+      'Stands at the point of the model that data-position says. Where data-normal (0 1 0) faces away it is pale; else it has the attribute data-visible, or data- and what data-visibility-attribute says.',
+  },
+  { name: 'interaction-prompt', description: 'In place of the hand.' },
 ];
 const parts = ['canvas', 'poster', 'progress-bar', 'message'];
 const cssProperties = [
   { name: '--progress-bar-color', description: 'Colour of the progress bar.' },
   { name: '--poster-color', description: 'Behind the poster.' },
+  { name: '--min-hotspot-opacity', description: 'Of a hotspot whose surface faces away; 0.25.' },
+  { name: '--max-hotspot-opacity', description: 'Of the others; 1.' },
 ];
 
 function typeOf(row) {
@@ -96,12 +114,17 @@ export declare class VitrineViewer extends HTMLElement {
   /** What vitrine-shaders.txt has in it, where that is not to be fetched either. Set before the first element. */
   static laterShaders: string | null;
   /** What all elements of the page hold, what of the files they show is left out or changed, and of those that move and are drawn in less than full quality the detail of render-scale. */
-  static statistics: () => Promise<{ contexts: number; heapBytes: number; warnings: string[]; lessened: VitrineViewerEventMap['render-scale']['detail'][] }>;
+  static statistics: () => Promise<{ contexts: number; viewers: number; gpuBytes: number; heapBytes: number; warnings: string[]; lessened: VitrineViewerEventMap['render-scale']['detail'][] }>;
 ${attributes.map((row) => `  /** ${row.description} Default: ${defaultOf(row) || 'empty'}. */\n  ${row.property}: ${typeOf(row)};`).join('\n')}
 ${properties.map(({ name, type, description }) => `  /** ${description} */\n  readonly ${name}: ${type};`).join('\n')}
 ${methods.map(({ signature, description }) => `  /** ${description} */\n  ${signature};`).join('\n')}
   addEventListener<K extends keyof VitrineViewerEventMap>(type: K, listener: (event: VitrineViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;
   addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+}
+
+/** What can be written in markup. */
+export interface VitrineViewerAttributes {
+${attributes.map((row) => `  '${row.attribute}'?: ${row.type === 'boolean' ? "boolean | ''" : row.type === 'number' ? 'number | string' : typeOf({ ...row, default: '' })};`).join('\n')}
 }
 
 declare global {
@@ -111,6 +134,39 @@ declare global {
 }
 `;
 }
+
+/** Of frameworks' markup, by their names: each a module of its own, which needs the framework's types. */
+const frameworkTypes = {
+  react: `import type { DetailedHTMLProps, HTMLAttributes } from 'react';
+import type { VitrineViewer, VitrineViewerAttributes } from './index.js';
+
+declare module 'react' {
+  namespace JSX {
+    interface IntrinsicElements {
+      'vitrine-viewer': DetailedHTMLProps<HTMLAttributes<VitrineViewer>, VitrineViewer> & VitrineViewerAttributes;
+    }
+  }
+}
+`,
+  vue: `import type { DefineComponent } from 'vue';
+import type { VitrineViewerAttributes } from './index.js';
+
+declare module 'vue' {
+  interface GlobalComponents {
+    'vitrine-viewer': DefineComponent<VitrineViewerAttributes>;
+  }
+}
+`,
+  svelte: `import type { HTMLAttributes } from 'svelte/elements';
+import type { VitrineViewer, VitrineViewerAttributes } from './index.js';
+
+declare module 'svelte/elements' {
+  interface SvelteHTMLElements {
+    'vitrine-viewer': HTMLAttributes<VitrineViewer> & VitrineViewerAttributes;
+  }
+}
+`,
+};
 
 function makeManifest(attributes) {
   const path = 'element/vitrine-viewer.js';
@@ -187,7 +243,7 @@ ${cssProperties.map(({ name, description }) => `- \`${name}\`: ${description}`).
 export async function describeElement(path) {
   // As a data URL it is a module for Node 18 too, which otherwise asks for a package.json beside it.
   const { attributes } = await import(`data:text/javascript;base64,${readFileSync(path).toString('base64')}`);
-  return { attributes, types: makeTypes(attributes), manifest: makeManifest(attributes), page: makePage(attributes) };
+  return { attributes, types: makeTypes(attributes), frameworkTypes, manifest: makeManifest(attributes), page: makePage(attributes) };
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

@@ -15,6 +15,8 @@ const version = readFileSync(join(root, 'src/vitrine.h'), 'utf8').match(/VT_VERS
 
 // Modules that are loaded only for files that need them; with two of them WebAssembly.
 const decoders = ['exr', 'unpack', 'draco', 'meshopt', 'basis'];
+// Modules that are loaded once an element asks for what they do.
+const extras = ['hotspots', 'prompt'];
 const decoderFiles = [...decoders.map((name) => `element/${name}.js`), 'element/draco.wasm', 'element/basis.wasm'];
 
 rmSync(folder, { recursive: true, force: true });
@@ -22,7 +24,7 @@ mkdirSync(folder, { recursive: true });
 for (const name of ['vitrine-core.wasm', 'vitrine-three.wasm', 'vitrine-shaders.txt']) cpSync(join(web, name), join(folder, name));
 const small = { format: 'esm', minify: true, target: 'es2022', logLevel: 'warning' };
 for (const name of ['vitrine-core.js', 'vitrine-three.js']) await build({ ...small, entryPoints: [join(web, name)], outdir: folder });
-const { attributes, types, manifest } = await describeElement(join(web, 'element/attributes.js'));
+const { attributes, types, frameworkTypes, manifest } = await describeElement(join(web, 'element/attributes.js'));
 
 /** Leaves out what the attributes are, in words: only the documentation reads it. */
 const withoutDescriptions = {
@@ -40,8 +42,9 @@ await build({
   ...small,
   entryPoints: [join(web, 'element/vitrine-viewer.js')],
   bundle: true,
-  external: ['../vitrine-core.js', ...decoders.map((name) => `./${name}.js`)],
+  external: ['../vitrine-core.js', ...[...decoders, ...extras].map((name) => `./${name}.js`)],
   plugins: [withoutDescriptions],
+  sourcemap: true,
   outdir: join(folder, 'element'),
 });
 
@@ -51,11 +54,12 @@ await build({ ...small, entryPoints: [join(web, 'three/fiber.js')], outdir: join
 for (const name of ['index.d.ts', 'fiber.d.ts']) cpSync(join(root, 'web/three', name), join(folder, 'three', name));
 
 writeFileSync(join(folder, 'index.d.ts'), types);
+for (const [name, text] of Object.entries(frameworkTypes)) writeFileSync(join(folder, `${name}.d.ts`), text);
 writeFileSync(join(folder, 'custom-elements.json'), `${JSON.stringify(manifest, null, 2)}\n`);
 cpSync(join(root, 'docs/web.md'), join(folder, 'README.md'));
 cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
 for (const name of decoderFiles) cpSync(join(web, name), join(folder, name));
-await build({ ...small, entryPoints: [join(web, 'element/unpack.js')], outdir: join(folder, 'element') });
+await build({ ...small, entryPoints: ['unpack', ...extras].map((name) => join(web, `element/${name}.js`)), sourcemap: true, outdir: join(folder, 'element') });
 const licences = ['parse-exr/LICENSE.md', 'fflate/LICENSE', 'meshoptimizer/LICENSE.md'].map((name) => `\nnpm: ${dirname(name)}\n\n${readFileSync(join(root, 'tests/node_modules', name), 'utf8')}`);
 const apache = `
 npm: draco3dgltf (Draco, Copyright 2016 The Draco Authors)
@@ -108,11 +112,13 @@ writeFileSync(
         './vitrine-three.wasm': './vitrine-three.wasm',
         './vitrine-shaders.txt': './vitrine-shaders.txt',
         './custom-elements.json': './custom-elements.json',
+        './package.json': './package.json',
+        ...Object.fromEntries(Object.keys(frameworkTypes).map((name) => [`./${name}`, { types: `./${name}.d.ts` }])),
       },
       sideEffects: ['./element/vitrine-viewer.js', './vitrine-viewer.bundle.js'],
       peerDependencies: { '@react-three/fiber': '>=8', react: '>=18', three: '>=0.163' },
       peerDependenciesMeta: Object.fromEntries(['@react-three/fiber', 'react', 'three'].map((name) => [name, { optional: true }])),
-      files: ['element', 'three', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-three.js', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', 'index.d.ts', 'custom-elements.json', 'NOTICES.txt'],
+      files: ['element', 'three', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-three.js', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', '*.d.ts', 'custom-elements.json', 'NOTICES.txt'],
       customElements: 'custom-elements.json',
       keywords: ['glass', 'refraction', 'webgl', 'wasm', 'gltf', 'custom-element', 'web-components'],
     },
@@ -137,3 +143,4 @@ const ofThree = ['vitrine-three.wasm', 'vitrine-three.js', 'three/index.js'].red
 console.log(`  all that vitrine-viewer/three loads: ${(ofThree / 1000).toFixed(1)} KB gzip`);
 weigh('vitrine-shaders.txt', ', loaded once a picture needs it');
 for (const name of decoderFiles) weigh(name, ', loaded once a file needs it');
+for (const name of extras) weigh(`element/${name}.js`, ', loaded once an element asks for it');

@@ -831,13 +831,15 @@ typedef vtProc vtGetProcAddressFcn(const char* name);
 /// without a line end; it lives as long as the call. Not called in builds for web pages.
 typedef void vtLogFcn(const char* line, void* userData);
 
+typedef struct vtRenderer vtRenderer;
+
 typedef struct vtRendererDef {
     vtGetProcAddressFcn* getProcAddress; ///< e.g. glfwGetProcAddress; NULL only on the web
     vtLogFcn* log;                       ///< called from within a renderer's calls; NULL: nothing is said
     void* logData;                       ///< passed to log
+    const vtRenderer* shares; ///< one in the same context, or in one that shares objects with it: programs
+                              ///< are compiled once for both, and used by one of them at a time; NULL: none
 } vtRendererDef;
-
-typedef struct vtRenderer vtRenderer;
 
 /// What the renderer runs on and holds; strings live as long as the renderer.
 typedef struct vtRendererInfo {

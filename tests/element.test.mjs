@@ -176,14 +176,19 @@ function startServer(requests, pages, gates) {
 
 /** In the page, before anything else: counts draws and contexts, and collects events. */
 function instrument() {
-  window.counts = { draws: 0, contexts: [] };
+  window.counts = { draws: 0, programs: 0, contexts: [] };
   const { drawArrays } = WebGL2RenderingContext.prototype;
   WebGL2RenderingContext.prototype.drawArrays = function (...values) {
     ++window.counts.draws;
     return drawArrays.apply(this, values);
   };
-  const { getContext } = HTMLCanvasElement.prototype;
-  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+  const { linkProgram } = WebGL2RenderingContext.prototype;
+  WebGL2RenderingContext.prototype.linkProgram = function (...values) {
+    ++window.counts.programs;
+    return linkProgram.apply(this, values);
+  };
+  const { getContext } = OffscreenCanvas.prototype;
+  OffscreenCanvas.prototype.getContext = function (kind, ...rest) {
     const context = getContext.call(this, kind, ...rest);
     const known = window.counts.contexts.some((ref) => ref.deref() === context);
     if (kind === 'webgl2' && context && !known) window.counts.contexts.push(new WeakRef(context));
@@ -235,11 +240,11 @@ describe('the element', { skip }, () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
   });
 
-  /** A page with that body, whose viewers take one sample a pixel unless they say otherwise. When the test is over its console must hold no error nor warning but those allowed. */
+  /** A page with that body, whose viewers take one sample a pixel and follow at once unless they say otherwise. When the test is over its console must hold no error nor warning but those allowed. */
   async function open(t, body, { init, headers = {}, waits = true, allowed = /^$/, ...options } = {}) {
     const path = `/page${pages.size}.html`;
     const head = '<!doctype html><html lang="en"><title>Test</title><link rel="stylesheet" href="/test.css"><link rel="icon" href="/poster.png">';
-    const quick = body.replaceAll(/<vitrine-viewer(?![^>]*samples=)/g, '<vitrine-viewer samples="1"');
+    const quick = Object.entries({ samples: 1, 'interpolation-decay': 0 }).reduce((text, [name, value]) => text.replaceAll(new RegExp(`<vitrine-viewer(?![^>]*${name}=)`, 'g'), `<vitrine-viewer ${name}="${value}"`), body);
     pages.set(path, { html: `${head}<script type="module" src="/element/vitrine-viewer.js"></script>${quick}`, headers });
     const page = await openPage(browser, { viewport: { width: 360, height: 360 }, ...options });
     const complaints = [];
@@ -590,20 +595,70 @@ describe('the element', { skip }, () => {
     assert.ok(kept <= 2);
   });
 
-  test('more elements than a browser has contexts', async (t) => {
-    const page = await open(t, Array.from({ length: 24 }, (_, i) => `<vitrine-viewer id="v${i}" src="sphere" layers="1" steps="2"></vitrine-viewer>`).join('')
-      + '<style>vitrine-viewer { height: 300px }</style>', { waits: false });
-    for (let i = 0; i < 24; ++i) {
+  for (const count of [20, 100]) {
+    test(`${count} elements share one context, and compile each shader once`, async (t) => {
+      const shapes = ['sphere', 'cube', 'diamond'];
+      const page = await open(t, `${Array.from({ length: count }, (_, i) => `<vitrine-viewer id="v${i}" src="${shapes[i % 3]}" environment-image="checker"></vitrine-viewer>`).join('')}
+        <style>body { display: flex; flex-wrap: wrap } vitrine-viewer { width: 60px; height: ${50 + (count % 3)}px }</style>`, { waits: false, allowed: /CONTEXT_LOST/ });
+      const isBlank = (image) => new Set(new Uint32Array(Uint8Array.from(image.data).buffer)).size < 10;
+      const all = Array.from({ length: count }, (_, i) => i);
+      const scroll = async () => {
+        for (const i of all) {
+          await page.evaluate((k) => document.getElementById(`v${k}`).scrollIntoView(), i);
+          await page.waitForFunction((k) => document.getElementById(`v${k}`).loaded, i);
+        }
+        await quiet(page);
+      };
+      await scroll();
+      const made = await page.evaluate(() => [window.liveContexts(), window.counts.contexts.length, window.counts.programs]);
+      t.diagnostic(`${made[0]} context, ${made[2]} programs`);
+      assert.deepEqual(made.slice(0, 2), [1, 1]);
+      assert.ok(made[2] <= 2, `${made[2]} programs`); // to trace with, and to show
+      const pictures = [];
+      for (const i of all) pictures.push(await shot(page, `v${i}`));
+      const whole = async (name) => {
+        for (const i of all) assert.equal(difference(pictures[i], await shot(page, `v${i}`)), 0, `${name}: ${i}`);
+      };
+      for (const i of all) {
+        assert.ok(!isBlank(pictures[i]), `${i} has its picture`);
+        assert.equal(difference(pictures[i], pictures[i % 3]), 0, 'that of its shape');
+      }
+      assert.ok(difference(pictures[0], pictures[1]) > 5);
+      await page.evaluate(() => {
+        window.loss = window.counts.contexts[0].deref().getExtension('WEBGL_lose_context');
+        window.loss.loseContext();
+      });
+      await page.waitForFunction(() => window.events.some(({ type }) => type === 'webglcontextlost'));
+      await page.evaluate(() => window.loss.restoreContext());
+      await page.waitForFunction((k) => document.getElementById(`v${k}`).shadowRoot.querySelector('[part=message]').hidden, count - 1);
+      await scroll();
+      await whole('after a loss');
+      for (const i of all) assert.equal(await message(page, `v${i}`), '');
+    });
+  }
+
+  test('elements out of view give back what they hold on the GPU, those seen longest ago first', async (t) => {
+    const page = await open(t, `${Array.from({ length: 6 }, (_, i) => `<vitrine-viewer id="v${i}" src="sphere" samples="2"></vitrine-viewer>`).join('')}
+      <style>vitrine-viewer { width: 700px; height: 700px }</style>`, { waits: false, viewport: { width: 720, height: 720 }, deviceScaleFactor: 1 });
+    let first;
+    const held = [];
+    for (let i = 0; i < 6; ++i) {
       await page.evaluate((k) => document.getElementById(`v${k}`).scrollIntoView(), i);
       await page.waitForFunction((k) => document.getElementById(`v${k}`).loaded, i);
+      await quiet(page);
+      first ??= await shot(page, 'v0');
+      held.push(await page.evaluate(() => customElements.get('vitrine-viewer').statistics()));
     }
-    const live = await page.evaluate(() => window.liveContexts());
-    t.diagnostic(`${live} contexts`);
-    assert.ok(live <= 12);
+    t.diagnostic(held.map(({ viewers, gpuBytes }) => `${viewers} hold ${(gpuBytes / 1e6).toFixed(0)} MB`).join(', '));
+    const most = held[0].gpuBytes * 2 + 2 ** 27; // at most two are in view
+    for (const { gpuBytes } of held) assert.ok(gpuBytes <= most);
+    assert.ok(held.at(-1).viewers < 6);
+    assert.equal(difference(first, await shot(page, 'v0')), 0, 'its picture stays');
+    await page.evaluate(() => Object.assign(window.v0, { ior: 1.2 }));
     await page.evaluate(() => window.v0.scrollIntoView());
     await quiet(page);
-    const first = await shot(page, 'v0');
-    assert.notDeepEqual(pixel(first, 80, 150), [20, 90, 40], 'the first comes back');
+    const changed = await shot(page, 'v0');
+    assert.ok(difference(first, changed) > 5, 'and it comes back to draw');
   });
 
   test('poster and progress stand until the first frame', async (t) => {
@@ -661,6 +716,41 @@ describe('the element', { skip }, () => {
     for (const part of [/ior is '9'; it must be a number from 1 to 4; 4 is used/, /layers is '2.5'/, /camera-orbit is 'left'/]) assert.match(text, part);
     assert.deepEqual((await events(page, 'error')).at(-1).type, 'invalid');
     assert.deepEqual(await page.evaluate(() => [a.ior, a.layers]), [4, 3]);
+  });
+
+  test('a fetch that fails says whether it was offline, another server or what it answered', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="cube" technique="single"></vitrine-viewer>', { allowed: /CORS|ERR_|404/ });
+    const other = await listen((request, response) => response.end('nothing for other pages'));
+    const said = async (src, sentence) => {
+      await page.evaluate((url) => (a.src = url), src);
+      await page.waitForFunction(({ source }) => window.events.some((event) => event.event === 'error' && new RegExp(source).test(event.sentence)), sentence);
+    };
+    await said(`${other.address}/far.glb`, { source: 'far\\.glb: cannot be fetched: 127.0.0.1:\\d+ does not let this page read it; it has to answer with Access-Control-Allow-Origin' });
+    other.close();
+    await said('http://127.0.0.1:9/gone.glb', { source: 'gone\\.glb: cannot be fetched: 127.0.0.1:9 cannot be reached' });
+    await page.context().setOffline(true);
+    await said('/away.glb', { source: 'away\\.glb: cannot be fetched: the browser is offline' });
+    await page.context().setOffline(false);
+    await said('/missing.glb', { source: 'missing\\.glb: the server answered 404' });
+  });
+
+  test('what a frame is refused for is said until the next good one, and too large a size is scaled down', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="cube" technique="single"></vitrine-viewer>');
+    const first = await shot(page);
+    await page.evaluate(() => (a.cameraTarget = '1e38m 1e38m 1e38m'));
+    await quiet(page);
+    assert.match(await message(page), /the camera stands on its target/);
+    assert.equal((await events(page, 'error')).length, 1);
+    await page.evaluate(() => a.removeAttribute('camera-target'));
+    await quiet(page);
+    assert.equal(await message(page), '');
+    assert.equal(difference(first, await shot(page)), 0);
+    for (const [width, height] of [['17000px', '20px'], ['6000px', '6000px']]) {
+      await page.evaluate(([w, h]) => Object.assign(a, { hidden: false }) && Object.assign(a.style, { width: w, height: h }), [width, height]);
+      await page.waitForFunction((side) => window.events.at(-1).pixelWidth === side, width === '17000px' ? 16384 : 4096);
+      assert.equal(await message(page), '');
+      await page.evaluate(() => (a.hidden = true)); // the second one need not be drawn
+    }
   });
 
   test('several objects, each of its own index', async (t) => {
@@ -721,7 +811,7 @@ describe('the element', { skip }, () => {
     const page = await open(t, '<vitrine-viewer id="a" src="/red.glb"></vitrine-viewer>');
     const facts = await page.evaluate(async () => {
       const { Viewer, loadCore } = await import('/element/core.js');
-      const viewer = new Viewer(await loadCore(), document.createElement('canvas'), () => {});
+      const viewer = new Viewer(await loadCore(), {});
       const contents = new Uint8Array(await (await fetch('/red.glb')).arrayBuffer());
       viewer.begin([{ name: 'red.glb', contents, spec: '' }]);
       const { length } = viewer.images;
@@ -919,6 +1009,162 @@ describe('the element', { skip }, () => {
     await page.evaluate(() => a.resetView());
     await quiet(page);
     assert.equal(difference(first, await picture(page)), 0, 'and back');
+  });
+
+  test('the view follows as a spring does, within its limits', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="cube" technique="single" camera-controls interpolation-decay="100" camera-orbit="0deg 90deg 4m"></vitrine-viewer>');
+    const orbit = () => page.evaluate(() => ({ ...a.getCameraOrbit() }));
+    const first = await shot(page);
+    await page.evaluate(() => (a.cameraOrbit = '60deg 90deg 8m'));
+    await page.waitForFunction(() => a.getCameraOrbit().theta > 0.05);
+    const between = await orbit();
+    assert.ok(between.theta < Math.PI / 3 && between.radius > 4 && between.radius < 8, JSON.stringify(between));
+    await quiet(page);
+    const end = await orbit();
+    assert.ok(Math.abs(end.theta - Math.PI / 3) < 1e-9 && Math.abs(end.radius - 8) < 1e-9, 'it arrives');
+    const arrived = await shot(page);
+    assert.ok(difference(first, arrived) > 2);
+    await page.evaluate(() => {
+      a.cameraOrbit = '0deg 90deg 4m';
+      return Promise.resolve().then(() => a.jumpCameraToGoal());
+    });
+    assert.ok((await orbit()).theta < 1e-9, 'without the way');
+    await quiet(page);
+    assert.equal(difference(first, await shot(page)), 0);
+    await page.evaluate(() => (a.cameraOrbit = '-350deg 90deg 4m'));
+    await page.waitForFunction(() => a.getCameraOrbit().theta !== 0);
+    assert.ok(Math.abs((await orbit()).theta + 2 * Math.PI) < 0.2, 'the shorter way round');
+    await quiet(page);
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+    await page.evaluate(() => (a.cameraOrbit = '45deg 90deg 4m'));
+    await page.evaluate(() => null);
+    assert.ok(Math.abs((await orbit()).theta - Math.PI / 4) < 1e-9, 'at once, for whom motion is too much');
+
+    await page.evaluate(() => Object.assign(a, { minCameraOrbit: '-10deg 60deg 3m', maxCameraOrbit: '10deg auto 150%', maxFieldOfView: '30deg' }));
+    await quiet(page);
+    assert.ok(Math.abs((await page.evaluate(() => a.getFieldOfView())) - 30) < 1e-9);
+    assert.ok(Math.abs((await orbit()).theta - Math.PI / 18) < 1e-9);
+    await page.evaluate(() => a.shadowRoot.querySelector('.view').focus());
+    for (let i = 0; i < 12; ++i) await page.keyboard.press('ArrowUp');
+    for (let i = 0; i < 30; ++i) await page.keyboard.press('+');
+    await page.keyboard.press('ArrowLeft');
+    const { theta, phi, radius } = await orbit();
+    assert.deepEqual([theta, phi, radius].map((value) => Number(value.toFixed(4))), [Math.PI / 36, Math.PI / 3, 3].map((value) => Number(value.toFixed(4))), 'and from the limit back at once');
+    await page.evaluate(() => (a.maxCameraOrbit = 'far'));
+    await quiet(page);
+    assert.match(await message(page), /^max-camera-orbit is 'far'; it must have 3 parts$/);
+  });
+
+  test('the right button pans', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="cube" technique="single" camera-controls></vitrine-viewer>');
+    const target = () => page.evaluate(() => a.getCameraTarget());
+    const start = await target();
+    const drag = async () => {
+      await page.mouse.move(80, 80);
+      await page.mouse.down({ button: 'right' });
+      await page.mouse.move(110, 80, { steps: 3 });
+      await page.mouse.up({ button: 'right' });
+    };
+    await drag();
+    const moved = await target();
+    assert.ok(Math.hypot(moved.x - start.x, moved.z - start.z) > 0.3 && moved.y === start.y);
+    await page.evaluate(() => (a.disablePan = true));
+    await drag();
+    assert.deepEqual(await target(), moved);
+  });
+
+  test('hotspots stand at their points', async (t) => {
+    const count = () => requests.filter((path) => path === '/element/hotspots.js').length;
+    requests.length = 0;
+    const page = await open(t, `<vitrine-viewer id="b" src="cube" technique="single"></vitrine-viewer>`);
+    assert.equal(count(), 0, 'not loaded without');
+    await page.evaluate(() => {
+      b.outerHTML = `<vitrine-viewer id="a" src="cube" technique="single" samples="1" interpolation-decay="0" camera-orbit="0deg 90deg 6m" camera-target="0m 0m 0m">
+        <button slot="hotspot-front" id="front" data-position="0.5m 0 50cm" data-normal="0 0 1" data-visibility-attribute="shown">A</button>
+        <button slot="hotspot-back" id="back" data-position="0 0 -0.5" data-normal="0 0 -1">B</button></vitrine-viewer>`;
+    });
+    await page.waitForFunction(() => a.loaded && front.getBoundingClientRect().width > 0);
+    await quiet(page);
+    assert.equal(count(), 1);
+    const middle = (id) => page.evaluate((name) => {
+      const { left, top, width, height } = document.getElementById(name).getBoundingClientRect();
+      const [[x, y]] = a.project([name === 'front' ? [0.5, 0, 0.5] : [0, 0, -0.5]]);
+      return [left + width / 2 - x, top + height / 2 - y];
+    }, id);
+    for (const id of ['front', 'back']) assert.ok((await middle(id)).every((value) => Math.abs(value) < 1), `${id}: ${await middle(id)}`);
+    const seen = () => page.evaluate(() => [front.hasAttribute('data-shown'), back.hasAttribute('data-visible')]);
+    assert.deepEqual(await seen(), [true, false]);
+    await page.screenshot({ path: join(screenshots, 'element-hotspots.png') });
+    await page.evaluate(() => (a.cameraOrbit = '160deg 90deg 6m'));
+    await quiet(page);
+    for (const id of ['front', 'back']) assert.ok((await middle(id)).every((value) => Math.abs(value) < 1), id);
+    assert.deepEqual(await seen(), [false, true]);
+    await page.evaluate(() => (front.dataset.position = 'here'));
+    await page.waitForFunction(() => /hotspot-front: data-position is 'here'/.test(a.shadowRoot.querySelector('[part=message]').textContent));
+    await page.evaluate(() => front.remove());
+    await page.waitForFunction(() => a.shadowRoot.querySelector('[part=message]').hidden);
+  });
+
+  test('a hand shows that the view can be turned, until somebody does', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="cube" technique="single" camera-controls interaction-prompt="auto" interaction-prompt-threshold="50"></vitrine-viewer>', { waits: false });
+    await page.waitForFunction(() => a.loaded);
+    const theta = await page.evaluate(() => a.getCameraOrbit().theta);
+    await page.waitForFunction((before) => a.shadowRoot.querySelector('.prompt svg') && Math.abs(a.getCameraOrbit().theta - before) > 0.05, theta);
+    await page.locator('#a').screenshot({ path: join(screenshots, 'element-prompt.png') });
+    await page.evaluate(() => a.shadowRoot.querySelector('.view').focus());
+    await page.keyboard.press('ArrowLeft');
+    await quiet(page);
+    assert.equal(await page.evaluate(() => a.shadowRoot.querySelector('.prompt')), null);
+  });
+
+  test('orientation, scale, dimensions and materials', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="/good.glb" objects="cube:at=3,0,0" camera-orbit="0deg 75deg 12m"></vitrine-viewer>');
+    const size = () => page.evaluate(() => [a.getDimensions(), a.getBoundingBoxCenter()]);
+    const close = ({ x, y, z }, ...expected) => [x, y, z].forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 1e-3, `${[x, y, z]}, not ${expected}`));
+    const [whole, centre] = await size();
+    await shown(page, { objects: '' });
+    const [alone] = await size();
+    assert.ok(whole.x > alone.x && centre.x > 0.5);
+    const first = await picture(page);
+    await shown(page, { scale: '2 1 0.5' });
+    close((await size())[0], 2 * alone.x, alone.y, 0.5 * alone.z);
+    await shown(page, { scale: '1', orientation: '0deg 0deg 90deg' });
+    close((await size())[0], alone.z, alone.y, alone.x);
+    await shown(page, { orientation: '90deg 0 0deg'.replace(' 0 ', ' 0rad ') });
+    close((await size())[0], alone.y, alone.x, alone.z);
+    await page.evaluate(() => (a.scale = '0'));
+    await quiet(page);
+    assert.match(await message(page), /^scale is '0'; it must be one or three numbers above 0$/);
+    assert.equal(difference(first, await shown(page, { scale: null, orientation: null })), 0);
+
+    assert.deepEqual(await page.evaluate(() => a.materials.map(({ opaque, ior, tint }) => [opaque, Number(ior.toFixed(3)), tint])), [[false, 1.3, [1, 1, 1]]]);
+    const changed = await page.evaluate(async () => {
+      const [material] = a.materials;
+      Object.assign(material, { ior: 1.6, tint: [1, 0.5, 0.5] });
+      return [material.ior, material.tint];
+    });
+    assert.deepEqual(changed, [1.6, [1, 0.5, 0.5]]);
+    await quiet(page);
+    const red = await picture(page);
+    assert.ok(difference(first, red) > 2);
+    writeFileSync(join(folder, 'good.glb'), pyramid());
+    assert.equal(await page.evaluate(() => {
+      try {
+        a.materials[0].ior = 'much';
+        return '';
+      } catch (reason) {
+        return reason.message;
+      }
+    }), "material '0:ior=much': ior is 'much'; it must be a number from 0.25 to 4");
+    await page.evaluate(() => window.counts.contexts.at(-1).deref().getExtension('WEBGL_lose_context').loseContext());
+    await page.waitForFunction(() => !a.shadowRoot.querySelector('[part=message]').hidden);
+    await page.evaluate(() => (a.hidden = true));
+    await quiet(page);
+    await page.evaluate(() => (a.hidden = false));
+    await page.waitForFunction(() => a.shadowRoot.querySelector('[part=message]').hidden);
+    await quiet(page);
+    assert.equal(difference(red, await picture(page)), 0, 'what was set stays');
+    assert.ok(difference(red, await shown(page, { src: 'cube' })) > 2);
   });
 
   test('turns under fingers', async (t) => {
@@ -1182,8 +1428,8 @@ describe('the element', { skip }, () => {
 
   test('without WebGL 2 there is the poster and a sentence', async (t) => {
     const init = () => {
-      const real = HTMLCanvasElement.prototype.getContext;
-      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      const real = OffscreenCanvas.prototype.getContext;
+      OffscreenCanvas.prototype.getContext = function (kind, ...rest) {
         return kind === 'webgl2' ? null : real.call(this, kind, ...rest);
       };
     };
@@ -1226,7 +1472,7 @@ describe('the element', { skip }, () => {
       Object.assign(a, { ior: null, cameraControls: true, maxEvents: 3 });
       return [before, a.ior, a.hasAttribute('ior'), a.getAttribute('camera-controls'), a.getAttribute('max-events'), a.constructor.observedAttributes.length];
     });
-    assert.deepEqual(seen, [[1.4, null, false, null], null, false, '', '3', 41]);
+    assert.deepEqual(seen, [[1.4, null, false, null], null, false, '', '3', 51]);
     const blob = await page.evaluate(async () => {
       const { type, size } = await a.toBlob({ mimeType: 'image/jpeg' });
       return [type, size > 1000];

@@ -2,7 +2,7 @@
 // glass is seen in both. Also that the documentation made from the element's table is up to date.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
@@ -17,7 +17,7 @@ const missing = !existsSync(join(root, 'build/web/vitrine-core.wasm'))
   ? 'the page is not built (scripts/build-web.sh)'
   : !existsSync(chromiumPath)
     ? 'chromium is not installed'
-    : !existsSync(join(here, 'node_modules/vite'))
+    : !['vite', 'webpack', 'typescript'].every((name) => existsSync(join(here, 'node_modules', name)))
       ? 'npm packages are not installed (tests/package.json)'
       : false;
 
@@ -83,12 +83,18 @@ describe('the package', { skip: missing }, () => {
     assert.ok((await colours(site)) > 300, 'a decoder in element/');
   });
 
-  test('in a fresh Vite project', async () => {
-    const site = join(folder, 'vite');
+  /** A fresh project with the package in it, and nothing else. */
+  function install(name) {
+    const site = join(folder, name);
     mkdirSync(site);
     writeFileSync(join(site, 'package.json'), JSON.stringify({ private: true, type: 'module' }));
     const installed = spawnSync('npm', ['install', '--offline', '--no-audit', '--no-fund', tarball], { cwd: site });
     assert.equal(installed.status, 0, installed.stderr.toString());
+    return site;
+  }
+
+  test('in a fresh Vite project', async () => {
+    const site = install('vite');
     writeFileSync(join(site, 'main.js'), "import 'vitrine-viewer';\n");
     mkdirSync(join(site, 'public'));
     writeFileSync(join(site, 'public/packed.glb'), await packDraco(model([{ mesh: ball(1), material: solid([1, 1, 1]) }])));
@@ -100,13 +106,87 @@ describe('the package', { skip: missing }, () => {
     assert.ok((await colours(join(site, 'dist'))) > 300);
   });
 
+  test('in a fresh webpack project', async () => {
+    const site = install('webpack');
+    writeFileSync(join(site, 'main.js'), "import 'vitrine-viewer';\n");
+    const { default: webpack } = await import('webpack');
+    const options = { mode: 'production', context: site, entry: './main.js', output: { path: join(site, 'dist'), filename: 'main.js' }, performance: { hints: false } };
+    const stats = await new Promise((done, fail) => webpack(options, (error, result) => (error ? fail(error) : done(result))));
+    assert.ok(!stats.hasErrors(), stats.toString());
+    writeFileSync(join(site, 'dist/index.html'), `${head}<script type="module" src="main.js"></script>${element}`);
+    assert.ok((await colours(join(site, 'dist'))) > 300);
+  });
+
+  // As docs/web.md has it: esbuild does not follow new URL(…, import.meta.url).
+  test('in a fresh esbuild project', async () => {
+    const site = install('esbuild');
+    const [, source] = readFileSync(join(root, 'docs/web.md'), 'utf8').match(/```js\n(\/\/ esbuild[\s\S]*?)```/);
+    writeFileSync(join(site, 'main.js'), source);
+    const { build } = await import('esbuild');
+    await build({ absWorkingDir: site, entryPoints: ['main.js'], bundle: true, format: 'esm', outdir: 'dist', loader: { '.wasm': 'file', '.txt': 'file' }, logLevel: 'error' });
+    writeFileSync(join(site, 'dist/packed.glb'), await packDraco(model([{ mesh: ball(1), material: solid([1, 1, 1]) }])));
+    cpSync(join(site, 'node_modules/vitrine-viewer/element/draco.wasm'), join(site, 'dist/draco.wasm'));
+    writeFileSync(join(site, 'dist/index.html'), `${head}<script type="module" src="main.js"></script>${element.replace('knot', 'packed.glb')}`);
+    assert.ok((await colours(join(site, 'dist'))) > 300);
+  });
+
+  test('in a fresh Rollup project', async () => {
+    const site = install('rollup');
+    writeFileSync(join(site, 'main.js'), "import 'vitrine-viewer/bundle';\n");
+    const [{ rollup }, { nodeResolve }] = await Promise.all([import('rollup'), import('@rollup/plugin-node-resolve')]);
+    const bundle = await rollup({ input: join(site, 'main.js'), plugins: [nodeResolve({ browser: true })] });
+    await bundle.write({ dir: join(site, 'dist'), format: 'es' });
+    writeFileSync(join(site, 'dist/index.html'), `${head}<script type="module" src="main.js"></script>${element}`);
+    assert.ok((await colours(join(site, 'dist'))) > 300);
+  });
+
+  test('where a server renders the page, importing does nothing', () => {
+    const site = install('server');
+    for (const name of ['vitrine-viewer', 'vitrine-viewer/bundle']) {
+      const result = spawnSync('node', ['--input-type=module', '-e', `const { VitrineViewer } = await import('${name}'); console.log(typeof VitrineViewer)`], { cwd: site });
+      assert.equal(result.stderr.toString(), '');
+      assert.equal(result.stdout.toString(), 'function\n', name);
+    }
+    const { version } = JSON.parse(readFileSync(join(site, 'node_modules/vitrine-viewer/package.json'), 'utf8'));
+    assert.equal(spawnSync('node', ['-p', "require('vitrine-viewer/package.json').version"], { cwd: site }).stdout.toString(), `${version}\n`);
+  });
+
+  test('its types fit React, Vue and Svelte', () => {
+    const site = install('types');
+    for (const name of ['@types', 'csstype', 'vue', '@vue', 'svelte']) symlinkSync(join(here, 'node_modules', name), join(site, 'node_modules', name));
+    const files = {
+      'element.ts': `import { VitrineViewer } from 'vitrine-viewer';
+        const viewer: VitrineViewer = document.createElement('vitrine-viewer');
+        viewer.addEventListener('load', ({ detail }) => console.log(detail.url, viewer.modelIsVisible));
+        viewer.materials[0].ior = 1.4;
+        VitrineViewer.statistics().then(({ gpuBytes }) => console.log(gpuBytes));`,
+      'react.tsx': `import 'vitrine-viewer/react';
+        export const glass = <vitrine-viewer src="knot" ior={1.5} camera-controls camera-orbit="0deg 90deg 4m" className="glass" />;
+        // @ts-expect-error: one of four words
+        export const wrong = <vitrine-viewer tone-mapping="film" />;`,
+      'vue.ts': `import 'vitrine-viewer/vue';
+        import type { GlobalComponents } from 'vue';
+        export const props: InstanceType<GlobalComponents['vitrine-viewer']>['$props'] = { src: 'knot', 'camera-controls': true };`,
+      'svelte.ts': `import 'vitrine-viewer/svelte';
+        import type { SvelteHTMLElements } from 'svelte/elements';
+        export const props: SvelteHTMLElements['vitrine-viewer'] = { src: 'knot', ior: 1.5, class: 'glass' };
+        // @ts-expect-error: a number, or its text
+        export const wrong: SvelteHTMLElements['vitrine-viewer'] = { ior: true };`,
+    };
+    for (const [name, text] of Object.entries(files)) writeFileSync(join(site, name), text);
+    const options = ['--noEmit', '--strict', '--target', 'es2022', '--module', 'esnext', '--moduleResolution', 'bundler', '--jsx', 'react-jsx', '--lib', 'es2022,dom,dom.iterable', '--types', 'react', '--skipLibCheck'];
+    const result = spawnSync('node', [join(here, 'node_modules/typescript/bin/tsc'), ...options, ...Object.keys(files)], { cwd: site });
+    assert.equal(result.stdout.toString(), '');
+    assert.equal(result.status, 0);
+  });
+
   test('holds types, manifest, a description and the licences', () => {
     const site = join(folder, 'look');
     mkdirSync(site);
     execFileSync('tar', ['-xzf', tarball, '-C', site]);
     const about = JSON.parse(readFileSync(join(site, 'package/package.json'), 'utf8'));
     assert.equal(Object.keys(about.exports['.'])[0], 'types');
-    for (const file of [about.types, about.main, about.customElements, 'vitrine-core.wasm', 'vitrine-shaders.txt', 'README.md', 'LICENSE']) {
+    for (const file of ['element/vitrine-viewer.js.map', 'element/hotspots.js', 'element/prompt.js', about.types, about.main, about.customElements, 'vitrine-core.wasm', 'vitrine-shaders.txt', 'README.md', 'LICENSE']) {
       assert.ok(existsSync(join(site, 'package', file)), file);
     }
     for (const file of decoders) assert.ok(existsSync(join(site, 'package/element', file)), file);

@@ -103,7 +103,8 @@ typedef struct vtGL {
     /// Names and texts of shaders in turn, each ended by 0, after the last an empty name; NULL: there are
     /// none, or they are not loaded yet. The caller's.
     const char* laterShaders;
-    bool isDesktop;       ///< desktop GL, not OpenGL ES or WebGL
+    struct vtProgramStore* programs; ///< of the renderers that share them; program.h
+    bool isDesktop;                  ///< desktop GL, not OpenGL ES or WebGL
     bool parallelCompile; ///< KHR_parallel_shader_compile: the driver tells when a program is ready
 } vtGL;
 

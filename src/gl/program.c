@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "gl/target.h"
 #include "gl/uniforms.h"
 #include "shaders.h"
@@ -169,7 +170,8 @@ void vtProgram_Start(vtProgram* program, const vtGL* gl, const vtProgramDef* def
     if (program->name != 0) {
         return;
     }
-    *program = (vtProgram){.def = *def, .name = gl->CreateProgram()};
+    program->def = *def;
+    program->name = gl->CreateProgram();
     program->vertex = compile(gl, GL_VERTEX_SHADER, def->vertex);
     program->fragment = compile(gl, GL_FRAGMENT_SHADER, def->fragment);
     gl->AttachShader(program->name, program->vertex);
@@ -243,18 +245,64 @@ void vtProgram_Destroy(vtProgram* program, const vtGL* gl)
         gl->DeleteShader(program->fragment);
         gl->DeleteProgram(program->name);
     }
-    *program = (vtProgram){0};
+    *program = (vtProgram){.def = program->def, .next = program->next};
 }
 
-void vtProgramList_Start(vtProgramList* list, vtProgram* program, const vtGL* gl, const vtProgramDef* def)
+vtProgramStore* vtProgramStore_Join(vtProgramStore* store)
+{
+    store = store != NULL ? store : vtAllocateZeroed(1, sizeof *store);
+    if (store != NULL) {
+        ++store->users;
+    }
+    return store;
+}
+
+void vtProgramStore_Leave(vtProgramStore* store, const vtGL* gl)
+{
+    if (store == NULL || --store->users > 0) {
+        return;
+    }
+    while (store->first != NULL) {
+        vtProgram* program = store->first;
+        store->first = program->next;
+        vtProgram_Destroy(program, gl);
+        vtFree(program);
+    }
+    vtFree(store);
+}
+
+/// The same chunks and uniforms: definitions are pointers only, and what is not used of them is NULL.
+static vtProgram* findProgram(vtProgramStore* store, const vtProgramDef* def)
+{
+    vtProgram* program = store->first;
+    while (program != NULL && memcmp(&program->def, def, sizeof *def) != 0) {
+        program = program->next;
+    }
+    if (program == NULL) {
+        program = vtAllocateZeroed(1, sizeof *program);
+        if (program != NULL) {
+            *program = (vtProgram){.def = *def, .next = store->first};
+            store->first = program;
+        }
+    }
+    return program;
+}
+
+const vtProgram* vtProgramList_Start(vtProgramList* list, const vtGL* gl, const vtProgramDef* def)
 {
     assert(list->count < (int)(sizeof list->programs / sizeof list->programs[0]));
     if (!hasTexts(gl, def->vertex) || !hasTexts(gl, def->fragment)) {
         list->lacksShaders = true;
-        return;
+        return NULL;
+    }
+    vtProgram* program = findProgram(gl->programs, def);
+    if (program == NULL) {
+        list->lacksMemory = true;
+        return NULL;
     }
     vtProgram_Start(program, gl, def);
     list->programs[list->count++] = program;
+    return program;
 }
 
 bool vtProgramList_IsReady(const vtProgramList* list, const vtGL* gl)
@@ -268,9 +316,10 @@ bool vtProgramList_IsReady(const vtProgramList* list, const vtGL* gl)
 
 vtResult vtProgramList_Finish(const vtProgramList* list, const vtGL* gl, vtError* error)
 {
-    vtResult result = list->lacksShaders ? vtFail(error, vt_errorContext,
-                                                  "GL: the shaders of this picture are still to be loaded")
-                                         : vtSucceed(error);
+    vtResult result = list->lacksShaders  ? vtFail(error, vt_errorContext,
+                                                   "GL: the shaders of this picture are still to be loaded")
+                      : list->lacksMemory ? vtFail(error, vt_errorMemory, "GL: out of memory for a program")
+                                          : vtSucceed(error);
     for (int i = 0; i < list->count && result == vt_ok; ++i) {
         result = vtProgram_Finish(list->programs[i], gl, error);
     }

@@ -30,7 +30,18 @@ typedef struct vtProgram {
     vtProgramDef def;
     bool finished;
     GLint uniforms[VT_MAX_UNIFORMS]; ///< places of def.uniforms
+    struct vtProgram* next;          ///< in a store
 } vtProgram;
+
+/// The programs of the renderers that share a context: each is made once, and all go with the last renderer.
+typedef struct vtProgramStore {
+    vtProgram* first;
+    int users;
+} vtProgramStore;
+/// One user more; NULL: of a new store. NULL where memory is out.
+vtProgramStore* vtProgramStore_Join(vtProgramStore* store);
+/// One user less; safe on NULL.
+void vtProgramStore_Leave(vtProgramStore* store, const vtGL* gl);
 
 /// Hands the sources to the driver. Does nothing where that was done before.
 void vtProgram_Start(vtProgram* program, const vtGL* gl, const vtProgramDef* def);
@@ -45,10 +56,13 @@ typedef struct vtProgramList {
     vtProgram* programs[8];
     int count;
     bool lacksShaders; ///< some were not started, for want of vtGL.laterShaders
+    bool lacksMemory;  ///< some were not started, for want of memory
 } vtProgramList;
-void vtProgramList_Start(vtProgramList* list, vtProgram* program, const vtGL* gl, const vtProgramDef* def);
+/// The program of that definition, from the store; NULL where it cannot be started: then the list is not
+/// finished either.
+const vtProgram* vtProgramList_Start(vtProgramList* list, const vtGL* gl, const vtProgramDef* def);
 bool vtProgramList_IsReady(const vtProgramList* list, const vtGL* gl);
 vtResult vtProgramList_Finish(const vtProgramList* list, const vtGL* gl, vtError* error);
 
-/// Safe on a zeroed program; zeroes it.
+/// Safe on a zeroed program; afterwards it can be started again.
 void vtProgram_Destroy(vtProgram* program, const vtGL* gl);

@@ -12,9 +12,9 @@ static const vtProgramDef addDef = {
 void vtAccumulatePass_Start(vtAccumulatePass* pass, const vtGL* gl, vtDisplay display,
                             vtProgramList* programs)
 {
-    vtProgramList_Start(programs, &pass->addProgram, gl, &addDef);
-    vtDisplay_Start(display, "show samples", &vtChunk_show_samples_frag, &pass->showProgram, &pass->display,
-                    gl, programs);
+    pass->addProgram = vtProgramList_Start(programs, gl, &addDef);
+    pass->showProgram = vtDisplay_Start(display, "show samples", &vtChunk_show_samples_frag, gl, programs);
+    pass->display = display;
 }
 
 vtResult vtAccumulatePass_Resize(vtAccumulatePass* pass, const vtGL* gl, int width, int height,
@@ -43,7 +43,7 @@ void vtAccumulatePass_Add(vtAccumulatePass* pass, const vtGL* gl, const vtTextur
     pass->weight = pass->count > 0 ? pass->weight + weight : weight;
     ++pass->count;
     vtBindFramebuffer(gl, pass->framebuffers[pass->latest], before->width, before->height);
-    gl->UseProgram(pass->addProgram.name);
+    gl->UseProgram(pass->addProgram->name);
     vtTexture_Bind(radiance, gl, vt_samplerRadiance);
     vtTexture_Bind(before, gl, vt_samplerSum);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
@@ -55,9 +55,9 @@ void vtAccumulatePass_Show(const vtAccumulatePass* pass, const vtGL* gl, const v
     const vtTexture* sum = &pass->sums[pass->latest];
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl->Viewport(x, y, sum->width, sum->height);
-    gl->UseProgram(pass->showProgram.name);
+    gl->UseProgram(pass->showProgram->name);
     vtTexture_Bind(sum, gl, vt_samplerSum);
-    vtDisplay_Bind(pass->display, &pass->showProgram, behind, gl);
+    vtDisplay_Bind(pass->display, pass->showProgram, behind, gl);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -66,8 +66,6 @@ void vtAccumulatePass_Destroy(vtAccumulatePass* pass, const vtGL* gl)
     vtDestroyFramebuffers(gl, pass->framebuffers, 2);
     vtTexture_Destroy(&pass->sums[0], gl);
     vtTexture_Destroy(&pass->sums[1], gl);
-    vtProgram_Destroy(&pass->addProgram, gl);
-    vtProgram_Destroy(&pass->showProgram, gl);
     *pass = (vtAccumulatePass){0};
 }
 

@@ -5,7 +5,7 @@
 /// Several samples a pixel: their sum in linear light, and its mean as a picture. Floats are kept as bits in
 /// integers because ES 3.0 draws to no others.
 typedef struct vtAccumulatePass {
-    vtProgram addProgram, showProgram;
+    const vtProgram *addProgram, *showProgram;
     vtDisplay display; ///< of showProgram
     GLuint framebuffers[2];
     vtTexture sums[2]; ///< RGBA32UI, in turns: WebGL forbids drawing to what is read

@@ -12,13 +12,9 @@ const vtChunk* vtDisplay_ToneChunk(vtToneMapping toneMapping)
     return chunks[toneMapping];
 }
 
-void vtDisplay_Start(vtDisplay display, const char* name, const vtChunk* last, vtProgram* program,
-                     vtDisplay* drawn, const vtGL* gl, vtProgramList* programs)
+const vtProgram* vtDisplay_Start(vtDisplay display, const char* name, const vtChunk* last, const vtGL* gl,
+                                 vtProgramList* programs)
 {
-    if (!vtDisplay_Same(display, *drawn)) {
-        vtProgram_Destroy(program, gl);
-    }
-    *drawn = display;
     vtProgramDef def = {.name = name, .vertex = {&vtChunk_screen_vert}, .uniforms = {"u_behind"}};
     const vtChunk* const chunks[] = {
         display.toFloats ? &vtChunk_to_floats : NULL,
@@ -31,7 +27,7 @@ void vtDisplay_Start(vtDisplay display, const char* name, const vtChunk* last, v
         last,
     };
     vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
-    vtProgramList_Start(programs, program, gl, &def);
+    return vtProgramList_Start(programs, gl, &def);
 }
 
 void vtDisplay_Bind(vtDisplay display, const vtProgram* program, const vtBehind* behind, const vtGL* gl)

@@ -17,18 +17,13 @@ typedef struct vtBehind {
     float color[4];           ///< linear
 } vtBehind;
 
-static inline bool vtDisplay_Same(vtDisplay a, vtDisplay b)
-{
-    return a.toneMapping == b.toneMapping && a.hasBackground == b.hasBackground && a.toFloats == b.toFloats;
-}
-
 /// The chunk that defines toneMap; NULL: there is none.
 const vtChunk* vtDisplay_ToneChunk(vtToneMapping toneMapping);
 
-/// Starts the program of that display, in place of one of another: `last` is the fragment shader,
-/// display.glsl and what it takes go before it. *drawn: the display of the program there is.
-void vtDisplay_Start(vtDisplay display, const char* name, const vtChunk* last, vtProgram* program,
-                     vtDisplay* drawn, const vtGL* gl, vtProgramList* programs);
+/// Starts the program of that display: `last` is the fragment shader, display.glsl and what it takes go
+/// before it.
+const vtProgram* vtDisplay_Start(vtDisplay display, const char* name, const vtChunk* last, const vtGL* gl,
+                                 vtProgramList* programs);
 
 /// Binds what lies behind for the program in use.
 void vtDisplay_Bind(vtDisplay display, const vtProgram* program, const vtBehind* behind, const vtGL* gl);

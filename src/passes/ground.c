@@ -25,12 +25,8 @@ bool vtGroundPass_IsStale(const vtGroundPass* pass, const vtFrame* frame)
 
 void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs)
 {
-    if (pass->program.name != 0 && pass->variant != variant) {
-        vtProgram_Destroy(&pass->program, gl);
-    }
     const vtProgramDef def = vtTracePhotons(variant);
-    vtProgramList_Start(programs, &pass->program, gl, &def);
-    pass->variant = variant;
+    pass->program = vtProgramList_Start(programs, gl, &def);
 }
 
 /// What one drawing needs, and where it is read to.
@@ -136,10 +132,10 @@ static void setUniforms(const vtGroundPass* pass, const vtGL* gl, const vtGround
     const float box[8] = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
     const float light[8] = {place.x, place.y, place.z, source < 2 ? 0.0f : beam.isNear ? 1.0f : 2.0f,
                             axis.x,  axis.y,  axis.z,  beam.cosine};
-    gl->Uniform4fv(pass->program.uniforms[1], 1, ground);
-    gl->Uniform4fv(pass->program.uniforms[2], 1, numbers);
-    gl->Uniform4fv(pass->program.uniforms[3], 2, box);
-    gl->Uniform4fv(pass->program.uniforms[4], 2, light);
+    gl->Uniform4fv(pass->program->uniforms[1], 1, ground);
+    gl->Uniform4fv(pass->program->uniforms[2], 1, numbers);
+    gl->Uniform4fv(pass->program->uniforms[3], 2, box);
+    gl->Uniform4fv(pass->program->uniforms[4], 2, light);
 }
 
 static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec3 origin, int source,
@@ -148,7 +144,7 @@ static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec
     bool ready = true;
     const int count = vtGroundPlan_Across(&rays->plan, source, kind, across);
     vtBindFramebuffer(gl, rays->framebuffer, count, count);
-    gl->UseProgram(pass->program.name);
+    gl->UseProgram(pass->program->name);
     setUniforms(pass, gl, &rays->plan, origin, source, kind, count);
     vtTexture_Bind(&rays->lights, gl, vt_samplerGroundLights);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
@@ -253,7 +249,6 @@ vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuff
 
 void vtGroundPass_Destroy(vtGroundPass* pass, const vtGL* gl)
 {
-    vtProgram_Destroy(&pass->program, gl);
     vtGroundBuffer_Destroy(&pass->buffer, gl);
     *pass = (vtGroundPass){0};
 }

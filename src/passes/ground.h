@@ -10,8 +10,7 @@ typedef struct vtGroundPass {
     bool isThere;  ///< there is a ground
     bool isStale;  ///< what is in `buffer` is of another ground, scene or light
     vtFrame frame; ///< that it was made for
-    vtProgram program;
-    vtTraceVariant variant; ///< of the program
+    const vtProgram* program;
     vtGroundBuffer buffer;
 } vtGroundPass;
 

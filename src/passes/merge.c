@@ -12,7 +12,7 @@ static const vtProgramDef programDef = {
 
 void vtMergePass_Start(vtMergePass* pass, const vtGL* gl, vtProgramList* programs)
 {
-    vtProgramList_Start(programs, &pass->program, gl, &programDef);
+    pass->program = vtProgramList_Start(programs, gl, &programDef);
 }
 
 vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int height, int layers, int sets,
@@ -30,13 +30,13 @@ vtResult vtMergePass_Resize(vtMergePass* pass, const vtGL* gl, int width, int he
 void vtMergePass_Draw(const vtMergePass* pass, const vtGL* gl, const vtTexture* layerDepths)
 {
     const int groups = (pass->layers + 3) / 4;
-    gl->UseProgram(pass->program.name);
+    gl->UseProgram(pass->program->name);
     vtTexture_Bind(layerDepths, gl, vt_samplerLayerDepths);
     vtBindFramebuffer(gl, pass->framebuffer, pass->depths.width, pass->depths.height);
     for (int slice = 0; slice < pass->depths.layers; ++slice) {
         gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, pass->depths.name, 0, slice);
-        gl->Uniform1i(pass->program.uniforms[0], slice % groups);
-        gl->Uniform1i(pass->program.uniforms[1], slice / groups * pass->layers);
+        gl->Uniform1i(pass->program->uniforms[0], slice % groups);
+        gl->Uniform1i(pass->program->uniforms[1], slice / groups * pass->layers);
         gl->DrawArrays(GL_TRIANGLES, 0, 3);
     }
 }
@@ -45,6 +45,5 @@ void vtMergePass_Destroy(vtMergePass* pass, const vtGL* gl)
 {
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtTexture_Destroy(&pass->depths, gl);
-    vtProgram_Destroy(&pass->program, gl);
     *pass = (vtMergePass){0};
 }

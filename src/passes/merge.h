@@ -6,7 +6,7 @@
 /// Layer depths merged (Wang & Chi 2014, section 3.5.2) and gathered four to a texel, so that a search
 /// reads four layers at once.
 typedef struct vtMergePass {
-    vtProgram program;
+    const vtProgram* program;
     GLuint framebuffer;
     int layers;       ///< of a set
     vtTexture depths; ///< RGBA16UI array, four layers a texel, set after set

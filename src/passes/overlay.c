@@ -13,11 +13,7 @@ void vtOverlayPass_Start(vtOverlayPass* pass, const vtGL* gl, bool surface, vtTo
                                      vtDisplay_ToneChunk(toneMapping), &vtChunk_host_depth,
                                      &vtChunk_overlay_frag};
     vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
-    if (pass->toneMappings[surface] != toneMapping) {
-        vtProgram_Destroy(&pass->programs[surface], gl);
-    }
-    pass->toneMappings[surface] = toneMapping;
-    vtProgramList_Start(programs, &pass->programs[surface], gl, &def);
+    pass->program = vtProgramList_Start(programs, gl, &def);
 }
 
 void vtOverlayPass_Draw(const vtOverlayPass* pass, const vtGL* gl, const vtOverlayInputs* inputs,
@@ -26,7 +22,7 @@ void vtOverlayPass_Draw(const vtOverlayPass* pass, const vtGL* gl, const vtOverl
     const bool surface = inputs->depths->format == GL_RGBA32UI;
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl->Viewport(x, y, inputs->light->width, inputs->light->height);
-    gl->UseProgram(pass->programs[surface].name);
+    gl->UseProgram(pass->program->name);
     vtTexture_Bind(inputs->light, gl, vt_samplerRadiance);
     vtTexture_Bind(inputs->depths, gl, surface ? vt_samplerSurface : vt_samplerDepths);
     vtHostPicture_Bind(inputs->host, gl);
@@ -40,12 +36,6 @@ void vtOverlayPass_Draw(const vtOverlayPass* pass, const vtGL* gl, const vtOverl
     gl->DepthFunc(GL_LESS);
     gl->Disable(GL_BLEND);
     vtHostPicture_Unbind(inputs->host, gl);
-}
-
-void vtOverlayPass_Destroy(vtOverlayPass* pass, const vtGL* gl)
-{
-    vtProgram_Destroy(&pass->programs[0], gl);
-    vtProgram_Destroy(&pass->programs[1], gl);
 }
 
 #endif

@@ -6,8 +6,7 @@
 /// The last pass in place of present or accumulate's showing where a frame is drawn over the host's picture:
 /// blended, with its depth, hidden by what the host has before it.
 typedef struct vtOverlayPass {
-    vtProgram programs[2];         ///< by whether depths are those of the surface pass
-    vtToneMapping toneMappings[2]; ///< of each
+    const vtProgram* program; ///< of the frame
 } vtOverlayPass;
 
 typedef struct vtOverlayInputs {
@@ -22,7 +21,6 @@ void vtOverlayPass_Start(vtOverlayPass* pass, const vtGL* gl, bool surface, vtTo
                          vtProgramList* programs);
 void vtOverlayPass_Draw(const vtOverlayPass* pass, const vtGL* gl, const vtOverlayInputs* inputs,
                         GLuint framebuffer, int x, int y);
-void vtOverlayPass_Destroy(vtOverlayPass* pass, const vtGL* gl);
 #else
 static inline void vtOverlayPass_Start(vtOverlayPass* pass, const vtGL* gl, bool surface,
                                        vtToneMapping toneMapping, vtProgramList* programs)
@@ -33,9 +31,5 @@ static inline void vtOverlayPass_Draw(const vtOverlayPass* pass, const vtGL* gl,
                                       const vtOverlayInputs* inputs, GLuint framebuffer, int x, int y)
 {
     (void)pass, (void)gl, (void)inputs, (void)framebuffer, (void)x, (void)y;
-}
-static inline void vtOverlayPass_Destroy(vtOverlayPass* pass, const vtGL* gl)
-{
-    (void)pass, (void)gl;
 }
 #endif

@@ -29,7 +29,7 @@ static const vtProgramDef programDefs[vt_peelKindCount] = {
 
 void vtPeelPass_Start(vtPeelPass* pass, const vtGL* gl, vtPeelKind kind, vtProgramList* programs)
 {
-    vtProgramList_Start(programs, &pass->programs[kind], gl, &programDefs[kind]);
+    pass->program = vtProgramList_Start(programs, gl, &programDefs[kind]);
 }
 
 vtResult vtPeelPass_Resize(vtPeelPass* pass, const vtGL* gl, int width, int height, int layers, int sets,
@@ -80,7 +80,7 @@ static void drawLayer(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffe
     gl->ClearBufferuiv(GL_COLOR, 0, noNormal);
     gl->ClearBufferuiv(GL_COLOR, 1, noDepth);
     vtTexture_Bind(&pass->depthBuffers[1 - buffer], gl, vt_samplerPreviousDepth);
-    vtSceneBuffer_Draw(scene, gl, &pass->programs[kind], first, last);
+    vtSceneBuffer_Draw(scene, gl, pass->program, first, last);
 }
 
 static void peelSet(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer* scene, vtPeelKind kind,
@@ -99,7 +99,7 @@ void vtPeelPass_Draw(const vtPeelPass* pass, const vtGL* gl, const vtSceneBuffer
 {
     const uint32_t glass = scene->glassCount;
     gl->Enable(GL_DEPTH_TEST);
-    gl->UseProgram(pass->programs[kind].name);
+    gl->UseProgram(pass->program->name);
     if (kind == vt_peelFarthest) {
         gl->DepthFunc(GL_GREATER);
         drawLayer(pass, gl, scene, kind, 1, 0, glass);
@@ -123,9 +123,6 @@ void vtPeelPass_Destroy(vtPeelPass* pass, const vtGL* gl)
     vtTexture_Destroy(&pass->depthBuffers[1], gl);
     vtTexture_Destroy(&pass->depths, gl);
     vtTexture_Destroy(&pass->normals, gl);
-    for (int i = 0; i < vt_peelKindCount; ++i) {
-        vtProgram_Destroy(&pass->programs[i], gl);
-    }
     *pass = (vtPeelPass){0};
 }
 

@@ -16,10 +16,10 @@ typedef enum vtPeelKind {
 } vtPeelKind;
 
 typedef struct vtPeelPass {
-    vtProgram programs[vt_peelKindCount];
-    GLuint startFramebuffer; ///< the depth that the first layer is compared with
-    GLuint framebuffers[2];  ///< by depth buffer
-    int layers;              ///< of a set
+    const vtProgram* program; ///< of the frame
+    GLuint startFramebuffer;  ///< the depth that the first layer is compared with
+    GLuint framebuffers[2];   ///< by depth buffer
+    int layers;               ///< of a set
     // WebGL forbids reading one layer of an array while another is drawn to, so the depth buffers that are
     // compared are two textures of their own, used in turn. 32 bits of float come back as they were
     // written, so a surface never peels itself.

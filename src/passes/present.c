@@ -4,7 +4,8 @@
 
 void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtDisplay display, vtProgramList* programs)
 {
-    vtDisplay_Start(display, "present", &vtChunk_present_frag, &pass->program, &pass->display, gl, programs);
+    pass->program = vtDisplay_Start(display, "present", &vtChunk_present_frag, gl, programs);
+    pass->display = display;
 }
 
 void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPresentInputs* inputs,
@@ -12,18 +13,12 @@ void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPrese
 {
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl->Viewport(x, y, width, height);
-    gl->UseProgram(pass->program.name);
+    gl->UseProgram(pass->program->name);
     const vtBinding bindings[] = {{vt_samplerPaths, inputs->paths},
                                   {vt_samplerRadiance, inputs->radiance},
                                   {vt_samplerLayerDepths, inputs->layerDepths},
                                   {vt_samplerLayerNormals, inputs->layerNormals}};
     vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
-    vtDisplay_Bind(pass->display, &pass->program, &inputs->behind, gl);
+    vtDisplay_Bind(pass->display, pass->program, &inputs->behind, gl);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-void vtPresentPass_Destroy(vtPresentPass* pass, const vtGL* gl)
-{
-    vtProgram_Destroy(&pass->program, gl);
-    *pass = (vtPresentPass){0};
 }

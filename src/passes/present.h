@@ -5,7 +5,7 @@
 /// Turns light into the picture, or shows a layer or the analysis. The last pass, into the caller's
 /// framebuffer.
 typedef struct vtPresentPass {
-    vtProgram program;
+    const vtProgram* program;
     vtDisplay display; ///< of the program
 } vtPresentPass;
 
@@ -21,4 +21,3 @@ typedef struct vtPresentInputs {
 void vtPresentPass_Start(vtPresentPass* pass, const vtGL* gl, vtDisplay display, vtProgramList* programs);
 void vtPresentPass_Draw(const vtPresentPass* pass, const vtGL* gl, const vtPresentInputs* inputs,
                         GLuint framebuffer, int x, int y, int width, int height);
-void vtPresentPass_Destroy(vtPresentPass* pass, const vtGL* gl);

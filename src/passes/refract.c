@@ -16,8 +16,7 @@ void vtRefractPass_Start(vtRefractPass* pass, const vtGL* gl, vtTechnique techni
         memmove(def.fragment + 1, def.fragment, (VT_MAX_CHUNKS - 1) * sizeof *def.fragment);
         def.fragment[0] = &vtChunk_count_reads;
     }
-    vtProgramList_Start(programs, &(countReads ? pass->counters : pass->programs)[technique][variant], gl,
-                        &def);
+    pass->program = vtProgramList_Start(programs, gl, &def);
 }
 
 static vtResult resizeSet(vtRefractPass* pass, const vtGL* gl, int set, int width, int height,
@@ -50,29 +49,26 @@ vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, in
     return result;
 }
 
-static const vtProgram* useProgram(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
-                                   vtVariant variant, const vtRefractInputs* inputs)
+static void useProgram(const vtRefractPass* pass, const vtGL* gl, const vtRefractInputs* inputs)
 {
-    const vtProgram* program = &(inputs->countReads ? pass->counters : pass->programs)[technique][variant];
     const vtSceneBuffer* scene = inputs->scene;
-    gl->UseProgram(program->name);
+    gl->UseProgram(pass->program->name);
     const vtBinding bindings[] = {
         {vt_samplerSurface, inputs->surface},           {vt_samplerInnerDistances, inputs->innerDistances},
         {vt_samplerLayerDepths, inputs->layerDepths},   {vt_samplerLayerNormals, inputs->layerNormals},
         {vt_samplerMergedDepths, inputs->mergedDepths}, {vt_samplerObjects, &scene->table},
         {vt_samplerRecords, &scene->geometry.records},  {vt_samplerObjectTree, &scene->tree}};
     vtBindTextures(gl, bindings, sizeof bindings / sizeof bindings[0]);
-    return program;
 }
 
-void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
+void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
                         const vtRefractInputs* inputs)
 {
     const bool onlyGlass = vtTechnique_Row(technique)->surface;
     const vtTexture* paths = &pass->targets[0].paths;
     vtBindFramebuffer(gl, onlyGlass ? pass->glassFramebuffer : pass->framebuffers[0], paths->width,
                       paths->height);
-    useProgram(pass, gl, technique, variant, inputs);
+    useProgram(pass, gl, inputs);
     if (!onlyGlass) {
         gl->DrawArrays(GL_TRIANGLES, 0, 3);
         return;
@@ -96,15 +92,14 @@ void vtRefractPass_ClearOrdered(const vtRefractPass* pass, const vtGL* gl, uint3
     gl->ClearBufferuiv(GL_COLOR, 0, background);
 }
 
-void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
-                               vtVariant variant, const vtRefractInputs* inputs, uint32_t object,
-                               uint32_t left)
+void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, const vtRefractInputs* inputs,
+                               uint32_t object, uint32_t left)
 {
     const vtPathTargets* before = &pass->targets[1 - left % 2];
     vtBindFramebuffer(gl, pass->framebuffers[left % 2], before->paths.width, before->paths.height);
     gl->ClearBufferuiv(GL_COLOR, 0, background);
-    const vtProgram* program = useProgram(pass, gl, technique, variant, inputs);
-    gl->Uniform1i(program->uniforms[0], (GLint)object);
+    useProgram(pass, gl, inputs);
+    gl->Uniform1i(pass->program->uniforms[0], (GLint)object);
     vtTexture_Bind(&before->paths, gl, vt_samplerPaths);
     vtTexture_Bind(&before->ends, gl, vt_samplerEnds);
     vtTexture_Bind(&before->lights, gl, vt_samplerLights);
@@ -114,12 +109,6 @@ void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTech
 
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl)
 {
-    for (int i = 0; i < vt_techniqueCount; ++i) {
-        for (int variant = 0; variant < vt_variantCount; ++variant) {
-            vtProgram_Destroy(&pass->programs[i][variant], gl);
-            vtProgram_Destroy(&pass->counters[i][variant], gl);
-        }
-    }
     vtDestroyFramebuffers(gl, pass->framebuffers, VT_PATH_SETS);
     vtDestroyFramebuffers(gl, &pass->glassFramebuffer, 1);
     for (int set = 0; set < VT_PATH_SETS; ++set) {

@@ -20,8 +20,7 @@ typedef struct vtPathTargets {
 
 /// Follows every pixel's path through layers with one technique of the ladder.
 typedef struct vtRefractPass {
-    vtProgram programs[vt_techniqueCount][vt_variantCount];
-    vtProgram counters[vt_techniqueCount][vt_variantCount]; ///< the same, counting texture reads
+    const vtProgram* program; ///< of the frame
     GLuint framebuffers[VT_PATH_SETS];
     GLuint glassFramebuffer; ///< of the first, with the surface pass's depth: only pixels that see glass are
                              ///< drawn
@@ -36,7 +35,6 @@ typedef struct vtRefractInputs {
     const vtTexture* layerNormals;
     const vtTexture* mergedDepths;
     const vtSceneBuffer* scene;
-    bool countReads;
 } vtRefractInputs;
 
 void vtRefractPass_Start(vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
@@ -45,13 +43,12 @@ void vtRefractPass_Start(vtRefractPass* pass, const vtGL* gl, vtTechnique techni
 /// sets: of targets, 1 to VT_PATH_SETS.
 vtResult vtRefractPass_Resize(vtRefractPass* pass, const vtGL* gl, int width, int height, int sets,
                               const vtTexture* surfaceDepth, vtError* error);
-void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique, vtVariant variant,
+void vtRefractPass_Draw(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
                         const vtRefractInputs* inputs);
 /// One after the other: clears the paths that the first of so many objects goes on from, then each of them,
 /// `left` more to come after it. Two sets of targets are needed.
 void vtRefractPass_ClearOrdered(const vtRefractPass* pass, const vtGL* gl, uint32_t count);
-void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, vtTechnique technique,
-                               vtVariant variant, const vtRefractInputs* inputs, uint32_t object,
-                               uint32_t left);
+void vtRefractPass_DrawOrdered(const vtRefractPass* pass, const vtGL* gl, const vtRefractInputs* inputs,
+                               uint32_t object, uint32_t left);
 void vtRefractPass_Destroy(vtRefractPass* pass, const vtGL* gl);
 size_t vtRefractPass_Bytes(const vtRefractPass* pass);

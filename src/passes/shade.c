@@ -34,7 +34,7 @@ void vtShadePass_Start(vtShadePass* pass, const vtGL* gl, bool opaque, bool surf
                        vtProgramList* programs)
 {
     const vtProgramDef def = describe(opaque, surface, host);
-    vtProgramList_Start(programs, &pass->programs[opaque][surface][host], gl, &def);
+    pass->program = vtProgramList_Start(programs, gl, &def);
 }
 
 vtResult vtShadePass_Resize(vtShadePass* pass, const vtGL* gl, int width, int height, vtError* error)
@@ -49,10 +49,9 @@ vtResult vtShadePass_Resize(vtShadePass* pass, const vtGL* gl, int width, int he
 void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInputs* inputs)
 {
     const vtSceneBuffer* scene = inputs->scene;
-    const bool opaque = scene->objectCount > scene->glassCount;
     vtBindFramebuffer(gl, pass->framebuffer, pass->radiance.width, pass->radiance.height);
     const bool host = VT_WITH_HOST && inputs->host->color != 0;
-    gl->UseProgram(pass->programs[opaque][inputs->surface != NULL][host].name);
+    gl->UseProgram(pass->program->name);
     const vtPathTargets* paths = inputs->paths;
     const vtEnvironmentBuffer* environment = inputs->environment;
     const vtBinding bindings[] = {
@@ -75,9 +74,6 @@ void vtShadePass_Draw(const vtShadePass* pass, const vtGL* gl, const vtShadeInpu
 
 void vtShadePass_Destroy(vtShadePass* pass, const vtGL* gl)
 {
-    for (int i = 0; i < 8; ++i) {
-        vtProgram_Destroy(&pass->programs[i / 4][i / 2 % 2][i % 2], gl);
-    }
     vtDestroyFramebuffers(gl, &pass->framebuffer, 1);
     vtTexture_Destroy(&pass->radiance, gl);
     *pass = (vtShadePass){0};

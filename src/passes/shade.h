@@ -9,8 +9,7 @@
 /// Turns the paths of the techniques that search layers, or blend, into light: the environment, opaque
 /// surfaces and reflections.
 typedef struct vtShadePass {
-    vtProgram programs[2][2][2]; ///< by whether there is something opaque, a first surface, and the host's
-                                 ///< picture behind
+    const vtProgram* program; ///< of the frame
     GLuint framebuffer;
     vtTexture
         radiance; ///< RGBA32UI, bits of floats: linear light after exposure, share of the pixel it covers

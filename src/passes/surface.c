@@ -18,7 +18,7 @@ static const vtProgramDef programDefs[2] = {
 
 void vtSurfacePass_Start(vtSurfacePass* pass, const vtGL* gl, bool distances, vtProgramList* programs)
 {
-    vtProgramList_Start(programs, &pass->programs[distances], gl, &programDefs[distances]);
+    pass->program = vtProgramList_Start(programs, gl, &programDefs[distances]);
 }
 
 vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, int height, bool distances,
@@ -46,7 +46,6 @@ vtResult vtSurfacePass_Resize(vtSurfacePass* pass, const vtGL* gl, int width, in
 void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtSceneBuffer* scene, uint32_t first,
                         uint32_t last, bool distances)
 {
-    const vtProgram* program = &pass->programs[distances];
     const float far = 1.0f;
     const GLuint none[4] = {0};
     vtBindFramebuffer(gl, pass->framebuffers[distances], pass->depth.width, pass->depth.height);
@@ -56,9 +55,9 @@ void vtSurfacePass_Draw(const vtSurfacePass* pass, const vtGL* gl, const vtScene
     if (distances) {
         gl->ClearBufferuiv(GL_COLOR, 1, none);
     }
-    gl->UseProgram(program->name);
-    vtSceneBuffer_Draw(scene, gl, program, first, last);
-    vtSceneBuffer_Draw(scene, gl, program, scene->glassCount, scene->objectCount);
+    gl->UseProgram(pass->program->name);
+    vtSceneBuffer_Draw(scene, gl, pass->program, first, last);
+    vtSceneBuffer_Draw(scene, gl, pass->program, scene->glassCount, scene->objectCount);
     gl->Disable(GL_DEPTH_TEST);
 }
 
@@ -68,9 +67,6 @@ void vtSurfacePass_Destroy(vtSurfacePass* pass, const vtGL* gl)
     vtTexture_Destroy(&pass->distances, gl);
     vtTexture_Destroy(&pass->depth, gl);
     vtTexture_Destroy(&pass->attributes, gl);
-    for (int i = 0; i < 2; ++i) {
-        vtProgram_Destroy(&pass->programs[i], gl);
-    }
     *pass = (vtSurfacePass){0};
 }
 

@@ -8,7 +8,7 @@
 /// The surface each pixel sees first, at the picture's resolution, for techniques that search layers: depth
 /// and normals, and for the technique that asks for it the inner distance.
 typedef struct vtSurfacePass {
-    vtProgram programs[2]; ///< by whether inner distances are drawn
+    const vtProgram* program; ///< of the frame
     GLuint framebuffers[2];
     vtTexture depth;      ///< DEPTH_COMPONENT32F, 1 where there is nothing
     vtTexture attributes; ///< RGBA32UI: surface.frag says what

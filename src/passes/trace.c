@@ -115,27 +115,10 @@ vtProgramDef vtTracePhotons(vtTraceVariant variant)
     return describe(variant & ofScene, true);
 }
 
-/// The place of the variant's program; -1: it is not there.
-static int findProgram(const vtTracePass* pass, vtTraceVariant variant)
-{
-    int found = -1;
-    for (int i = 0; i < VT_TRACE_PROGRAMS; ++i) {
-        found = pass->programs[i].name != 0 && pass->variants[i] == variant ? i : found;
-    }
-    return found;
-}
-
 void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs)
 {
     const vtProgramDef def = describe(variant, false);
-    int at = findProgram(pass, variant);
-    if (at < 0) {
-        at = pass->nextProgram;
-        vtProgram_Destroy(&pass->programs[at], gl);
-        pass->variants[at] = variant;
-        pass->nextProgram = (at + 1) % VT_TRACE_PROGRAMS;
-    }
-    vtProgramList_Start(programs, &pass->programs[at], gl, &def);
+    pass->program = vtProgramList_Start(programs, gl, &def);
 }
 
 vtResult vtTracePass_Resize(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, int width, int height,
@@ -178,7 +161,7 @@ void vtBindTraced(const vtGL* gl, const vtSceneBuffer* scene, const vtEnvironmen
 void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant variant,
                       const vtTraceInputs* inputs)
 {
-    const vtProgram* program = &pass->programs[findProgram(pass, variant)];
+    const vtProgram* program = pass->program;
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0;
     vtBindFramebuffer(gl, pass->framebuffers[host], pass->paths.width, pass->paths.height);
     gl->UseProgram(program->name);
@@ -209,9 +192,6 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
 
 void vtTracePass_Destroy(vtTracePass* pass, const vtGL* gl)
 {
-    for (int i = 0; i < VT_TRACE_PROGRAMS; ++i) {
-        vtProgram_Destroy(&pass->programs[i], gl);
-    }
     vtDestroyFramebuffers(gl, pass->framebuffers, 2);
     vtTexture_Destroy(&pass->paths, gl);
     vtTexture_Destroy(&pass->radiance, gl);

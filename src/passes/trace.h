@@ -28,11 +28,9 @@ typedef enum vtTraceVariant {
 
 /// The techniques that need no image of the scene: from the eye to the light in one drawing (trace.frag).
 typedef struct vtTracePass {
-    vtProgram programs[VT_TRACE_PROGRAMS]; ///< those drawn with last
-    vtTraceVariant variants[VT_TRACE_PROGRAMS];
-    int nextProgram;        ///< whose place is taken where there is no other
-    GLuint framebuffers[2]; ///< the second with depths
-    vtTexture paths;        ///< RGBA32UI: bits of the last direction (three floats), state (VT_PATH_...)
+    const vtProgram* program; ///< of the frame
+    GLuint framebuffers[2];   ///< the second with depths
+    vtTexture paths;          ///< RGBA32UI: bits of the last direction (three floats), state (VT_PATH_...)
     vtTexture
         radiance;     ///< RGBA32UI, bits of floats: linear light after exposure, share of the pixel it covers
     vtTexture depths; ///< R32UI, bits of a float: of what is seen first, in front of the eye; 0: nothing

@@ -175,8 +175,7 @@ vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, in
 }
 
 /// One object after the other, from the eye; then the surfaces of all are there again.
-static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, vtVariant variant,
-                        const vtRefractInputs* inputs)
+static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, const vtRefractInputs* inputs)
 {
     const vtGL* gl = &renderer->gl;
     const vtSceneBuffer* scene = &renderer->scene;
@@ -189,8 +188,7 @@ static void drawOrdered(vtRenderer* renderer, const vtFrame* frame, vtVariant va
             gl->BindVertexArray(renderer->emptyVertexArray);
             vtEndStage(frame, "surface");
         }
-        vtRefractPass_DrawOrdered(&renderer->refract, gl, frame->technique, variant, inputs, object,
-                                  count - 1 - i);
+        vtRefractPass_DrawOrdered(&renderer->refract, gl, inputs, object, count - 1 - i);
         vtEndStage(frame, "refract");
     }
     if (count > 1) {
@@ -225,12 +223,11 @@ static void drawLayers(vtRenderer* renderer, const vtFrame* frame, bool layersTo
                                     .layerDepths = &renderer->peel.depths,
                                     .layerNormals = &renderer->peel.normals,
                                     .mergedDepths = &renderer->merge.depths,
-                                    .scene = &renderer->scene,
-                                    .countReads = frame->countReads};
+                                    .scene = &renderer->scene};
     if (vtVariant_IsOrdered(variant)) {
-        drawOrdered(renderer, frame, variant, &inputs);
+        drawOrdered(renderer, frame, &inputs);
     } else {
-        vtRefractPass_Draw(&renderer->refract, gl, frame->technique, variant, &inputs);
+        vtRefractPass_Draw(&renderer->refract, gl, frame->technique, &inputs);
         vtEndStage(frame, "refract");
     }
     if (frame->output == vt_outputPicture) {

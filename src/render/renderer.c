@@ -32,6 +32,11 @@ vtResult vtCreateRenderer(const vtRendererDef* def, vtRenderer** out, vtError* e
         return result;
     }
     const vtGL* gl = &renderer->gl;
+    renderer->gl.programs = vtProgramStore_Join(def->shares != NULL ? def->shares->gl.programs : NULL);
+    if (gl->programs == NULL) {
+        vtFree(renderer);
+        return vtFail(error, vt_errorMemory, "renderer: out of memory");
+    }
     renderer->log = def->log;
     renderer->logData = def->logData;
     vtTakeState(gl);
@@ -65,9 +70,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtShadePass_Destroy(&renderer->shade, gl);
     vtTracePass_Destroy(&renderer->trace, gl);
     vtGroundPass_Destroy(&renderer->ground, gl);
-    vtPresentPass_Destroy(&renderer->present, gl);
     vtAccumulatePass_Destroy(&renderer->accumulate, gl);
-    vtOverlayPass_Destroy(&renderer->overlay, gl);
     vtHostPicture_Destroy(&renderer->host, gl);
     vtSceneBuffer_Destroy(&renderer->scene, gl);
     vtSlots_Destroy(&renderer->geometrySlots);
@@ -78,6 +81,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtTexture_Destroy(&renderer->background, gl);
     gl->DeleteBuffers(1, &renderer->uniformBuffer);
     gl->DeleteVertexArrays(1, &renderer->emptyVertexArray);
+    vtProgramStore_Leave(gl->programs, gl);
     vtFree(renderer);
 }
 

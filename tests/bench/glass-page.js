@@ -80,7 +80,7 @@ class VitrineContestant {
   async open() {
     const { size, files, core } = this.shared;
     this.canvas.width = this.canvas.height = size;
-    this.viewer = new Viewer(core, this.canvas, () => false);
+    this.viewer = new Viewer(core, { lost() {}, restored() {}, crowded: () => false });
     this.#must(this.viewer.attemptFile('OpenModel', { name: 'model.glb', contents: files.model }));
     this.#setGlass(true);
     this.#must(this.viewer.attempt('Resize', size, size));
@@ -113,8 +113,9 @@ class VitrineContestant {
   draw() {
     const { eye, target, fov } = this.shared.camera;
     this.#must(this.viewer.attempt('SetView', ...eye, ...target, fov)); // as after a motion: everything anew
-    const drawn = this.viewer.call('Tick');
+    const drawn = this.viewer.draw(this.shared.size, this.shared.size);
     if (drawn < 0) throw new Error(this.viewer.problem());
+    if (drawn === 1) this.viewer.showOn(this.canvas);
     return drawn;
   }
 

@@ -1,5 +1,5 @@
-// What the page and the element call, one viewer a canvas. Whoever made the canvas's context makes it current
-// before each call. A call that can fail returns the sentence of its vtError, or NULL; what was shown before
+// What the page and the element call, one viewer a canvas. Whoever made the context makes it current before
+// each call. A call that can fail returns the sentence of its vtError, or NULL; what was shown before
 // then stays. Bytes handed over from JavaScript are freed here.
 #include "core/viewer.h"
 
@@ -18,7 +18,7 @@ static const char* sentence(const vtViewer* viewer, vtResult result)
     return result == vt_ok ? NULL : viewer->error.message;
 }
 
-EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height)
+EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height, const vtViewer* other)
 {
     vtViewer* viewer = calloc(1, sizeof *viewer);
     if (viewer != NULL) {
@@ -27,7 +27,8 @@ EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height)
         viewer->frame.height = height;
         viewer->wanted = viewer->frame;
         viewer->sample = VT_MAX_SAMPLES; // nothing to draw yet
-        vtRendererDef def = {0};         // on the web GL is linked
+        // On the web GL is linked.
+        const vtRendererDef def = {.shares = other != NULL ? other->renderer : NULL};
         vtCreateRenderer(&def, &viewer->renderer, &viewer->error);
     }
     return viewer;
@@ -216,13 +217,20 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Zoom(vtViewer* viewer, float factor)
     viewer->changed = true;
 }
 
-/// The canvas now has width x height pixels, and is cleared: tick before the browser paints.
+/// The canvas has width x height pixels at the next tick.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_Resize(vtViewer* viewer, int width, int height)
 {
     vtFrame frame = viewer->frame;
     frame.width = width;
     frame.height = height;
     return sentence(viewer, showFrame(viewer, &frame));
+}
+
+/// What it holds on the GPU.
+EMSCRIPTEN_KEEPALIVE double vtViewer_Bytes(const vtViewer* viewer)
+{
+    const vtRendererInfo info = vtRenderer_Info(viewer->renderer);
+    return (double)(info.textureBytes + info.meshBytes);
 }
 
 /// Is the last frame asked for to be drawn by shaders that are still to be loaded?
@@ -334,18 +342,22 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Info(vtViewer* viewer)
     const vtView* view = &frame.view;
     const vtRendererInfo info = vtRenderer_Info(viewer->renderer);
     const vtSceneFacts facts = vtViewer_SceneFacts(viewer);
+    vtVec3 low, high;
+    vtScene_Bounds(&viewer->scene, &low, &high);
     snprintf(
         viewer->info, sizeof viewer->info,
         "{\"triangles\":%u,\"openEdges\":%u,\"objects\":%u,\"glassObjects\":%u,\"cameras\":%u,\"images\":%u,"
         "\"layerWidth\":%d,\"layerHeight\":%d,\"drawCount\":%d,"
         "\"technique\":\"%s\",\"preset\":\"%s\",\"ior\":%.6g,\"layers\":%d,\"steps\":%d,\"maxEvents\":%d,"
         "\"branches\":%d,\"wavelengths\":%d,"
+        "\"low\":[%.6g,%.6g,%.6g],\"high\":[%.6g,%.6g,%.6g],"
         "\"output\":%d,\"eye\":[%.6g,%.6g,%.6g],\"target\":[%.6g,%.6g,%.6g],\"fov\":%.6g}",
         facts.triangles, facts.openEdges, viewer->scene.objectCount, facts.glassCount,
         viewer->scene.cameraCount, viewer->scene.imageCount, info.layerWidth, info.layerHeight,
         viewer->drawCount, vtTechnique_Info(frame.technique)->id, vtPresetName((int)frame.preset),
         (double)facts.ior, frame.layers, frame.steps, frame.maxEvents, vtFrame_BranchCount(&frame),
-        frame.wavelengths, (int)frame.output, (double)view->eye.x, (double)view->eye.y, (double)view->eye.z,
+        frame.wavelengths, (double)low.x, (double)low.y, (double)low.z, (double)high.x, (double)high.y,
+        (double)high.z, (int)frame.output, (double)view->eye.x, (double)view->eye.y, (double)view->eye.z,
         (double)view->target.x, (double)view->target.y, (double)view->target.z, (double)view->fovY);
     return viewer->info;
 }

@@ -28,12 +28,13 @@ typedef struct vtViewer {
     int drawCount;
     uint8_t* image; ///< the last one of vtViewer_Image
     vtError error;
-    char info[704];
-    char path[192 + 128 * VT_MAX_EVENTS]; ///< the last one of vtViewer_Path
+    char info[864];
+    char path[192 + 128 * VT_MAX_EVENTS]; ///< the last one of vtViewer_Path or vtViewer_Material
 } vtViewer;
 
-/// In the current context; NULL where memory is out. See vtViewer_Error.
-vtViewer* vtViewer_Create(int width, int height);
+/// In the current context; NULL where memory is out. See vtViewer_Error. `other`: one in the same context,
+/// whose programs it shares, or NULL.
+vtViewer* vtViewer_Create(int width, int height, const vtViewer* other);
 void vtViewer_Destroy(vtViewer* viewer);
 /// Begins a scene; what was begun before is dropped.
 void vtViewer_Begin(vtViewer* viewer);

@@ -12,16 +12,13 @@ export class Access {
   /**
    * @param {object} shadow parts of the element
    * @param {import('./orbit.js').Orbit} orbit
-   * @param {() => void} onMoved a slider has moved the view
+   * @param {(change: () => void) => void} move does what a slider asks for
    */
-  constructor(shadow, orbit, onMoved) {
+  constructor(shadow, orbit, move) {
     this.#shadow = shadow;
     this.#orbit = orbit;
     const { turn, tilt, distance } = shadow;
-    const listen = (slider, move) => slider.addEventListener('input', () => {
-      move(Number(slider.value));
-      onMoved();
-    });
+    const listen = (slider, change) => slider.addEventListener('input', () => move(() => change(Number(slider.value))));
     listen(turn, (value) => orbit.turn(value * radians - orbit.theta, 0));
     listen(tilt, (value) => orbit.turn(0, value * radians - (Math.PI / 2 - orbit.phi)));
     listen(distance, (value) => orbit.zoom(((value / 100) * orbit.framed.distance) / orbit.distance));

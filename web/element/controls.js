@@ -8,6 +8,7 @@ const zoomPerPixel = 0.001; // of the wheel
  * @param {object} view told what to do
  * @param {() => boolean} view.isActive false: events are left to the page
  * @param {() => boolean} view.canZoom
+ * @param {() => boolean} view.canPan
  * @param {(right: number, up: number) => void} view.turn radians
  * @param {(right: number, up: number) => void} view.pan parts of the canvas's height
  * @param {(factor: number) => void} view.zoom
@@ -41,13 +42,15 @@ export function listenToControls(target, view) {
 }
 
 function listenToPointers(target, view, zoom) {
+  const pan = (right, up) => view.canPan() && view.pan(right, up);
+  target.addEventListener('contextmenu', (event) => view.isActive() && view.canPan() && event.preventDefault()); // its button pans
   const points = new Map(); // of the pointers that are down: where each was last
   const middle = () => {
     const [a, b] = [...points.values()];
     return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, spread: Math.hypot(a.x - b.x, a.y - b.y) };
   };
   target.addEventListener('pointerdown', (event) => {
-    if (!view.isActive() || event.button !== 0) return;
+    if (!view.isActive() || (event.button !== 0 && event.button !== 2)) return;
     target.setPointerCapture(event.pointerId); // a drag may leave the canvas
     points.set(event.pointerId, { x: event.clientX, y: event.clientY });
   });
@@ -61,13 +64,13 @@ function listenToPointers(target, view, zoom) {
       points.set(event.pointerId, now);
       const after = middle();
       if (before.spread > 0 && after.spread > 0) zoom(before.spread / after.spread);
-      view.pan((before.x - after.x) / height, (after.y - before.y) / height);
+      pan((before.x - after.x) / height, (after.y - before.y) / height);
       return;
     }
     points.set(event.pointerId, now);
     if (points.size > 2) return;
     const right = (now.x - last.x) / height, down = (now.y - last.y) / height;
-    if (event.shiftKey) view.pan(-right, down);
+    if (event.shiftKey || event.buttons === 2) pan(-right, down);
     else view.turn(-right * Math.PI, down * Math.PI); // the height is half a turn, whatever the size
   });
   for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) {

@@ -1,13 +1,14 @@
-// The compiled module, loaded once a page, and one Viewer (web/core/viewer.c) for each canvas.
+// The compiled module, loaded once a page, and one Viewer (web/core/viewer.c) for each element.
 import createVitrine from '../vitrine-core.js';
 import { attributes } from './attributes.js';
 import { placeShaders } from './later-shaders.js';
+import { Context } from './context.js';
 import { openInCore, placePicture } from './picture.js';
 
-/** Browsers keep about 16 contexts; some are left to the rest of the page. */
-const mostContexts = 12;
+/** Elements out of view keep what they have on the GPU until all hold more than that, bytes. */
+const mostBytes = 2 ** 27;
 
-const viewers = new Set(); // those with a context
+let context = null; // of all viewers; null: there are none
 const numbers = new WeakMap(); // of a part's contents, by which the core knows them again
 let lastNumber = 0;
 let loading = null;
@@ -40,54 +41,51 @@ function loadShaders(core) {
 /** What is held at present, for measurements, what of the files that are shown is left out or changed, and how the elements are drawn that move in less than full quality. */
 export async function coreStatistics() {
   const core = await loading;
-  const seen = [...viewers].filter(({ isLost }) => !isLost);
-  const lessened = seen.flatMap((viewer) => viewer.lessened ?? []);
-  return { contexts: viewers.size, heapBytes: core?.HEAPU8.length ?? 0, warnings: seen.flatMap(({ notes }) => notes), lessened };
+  const viewers = [...(context?.drawers ?? [])].filter(({ isLost }) => !isLost);
+  const gpuBytes = viewers.reduce((sum, { bytes }) => sum + bytes, 0);
+  const lessened = viewers.flatMap((viewer) => viewer.lessened ?? []);
+  return { contexts: context === null ? 0 : 1, viewers: viewers.length, gpuBytes, heapBytes: core?.HEAPU8.length ?? 0, warnings: viewers.flatMap(({ notes }) => notes), lessened };
 }
 
 const { values: wallsNames } = attributes.find(({ attribute }) => attribute === 'walls'); // in the order of vtWalls
 const noGround = Array(14).fill(0); // of vtViewer_SetGround
 const workAtOnce = 20000; // triangles looked at: a few milliseconds
 
-/** A context, the renderer in it, and the calls of web/core/viewer.c. */
+/** Those out of view that were seen longest ago give back what they have, until all hold no more than they may. */
+function makeRoom(newest) {
+  const sizes = [...context.drawers].filter((viewer) => viewer !== newest).map((viewer) => [viewer, viewer.bytes]);
+  let sum = sizes.reduce((total, [, bytes]) => total + bytes, 0);
+  for (const [viewer, bytes] of sizes) {
+    if (sum <= mostBytes) return;
+    if (viewer.told.crowded()) sum -= bytes;
+  }
+}
+
+/** A renderer in the page's context, and the calls of web/core/viewer.c. */
 export class Viewer {
   #core;
-  #canvas;
-  #context; // Emscripten's handle
+  #context;
   #viewer = 0; // address of the vtViewer; 0 while the context is lost
   /** @type {object|null} detail of render-scale where less is drawn than at rest */
   lessened = null;
 
   /**
    * @param core from loadCore
-   * @param {HTMLCanvasElement} canvas without a context
-   * @param {() => boolean} onCrowded asked when contexts run short; true if it destroyed this viewer
+   * @param {object} told
+   * @param {() => void} told.lost the context, and all that was in it
+   * @param {(problem: string) => void} told.restored all has to be given to it again; problem: a sentence where that cannot be
+   * @param {() => boolean} told.crowded memory runs short; true if it destroyed this viewer
    * @throws {Error} where the browser has no WebGL 2 or the renderer cannot start
    */
-  constructor(core, canvas, onCrowded) {
-    this.onCrowded = onCrowded;
-    for (const other of [...viewers]) {
-      if (viewers.size < mostContexts) break;
-      other.onCrowded();
-    }
+  constructor(core, told) {
+    this.told = told;
     this.#core = core;
-    this.#canvas = canvas;
-    this.#context = core.GL.createContext(canvas, {
-      majorVersion: 2,
-      alpha: true,
-      premultipliedAlpha: false,
-      antialias: false,
-      depth: false,
-      stencil: false,
-      preserveDrawingBuffer: false,
-      powerPreference: 'high-performance',
-    });
-    if (!this.#context) {
-      throw new Error('This browser opens no WebGL 2 context; turn hardware acceleration on or try another browser');
-    }
-    viewers.add(this);
+    this.#context = context ??= new Context(core);
     try {
-      this.start();
+      if (context.isLost) context.renew();
+      context.drawers.add(this);
+      makeRoom(this);
+      this.#start();
     } catch (reason) {
       this.destroy();
       throw reason;
@@ -95,42 +93,93 @@ export class Viewer {
   }
 
   get gl() {
-    return this.#core.GL.getContext(this.#context).GLctx;
+    return this.#context.gl;
   }
 
   get isLost() {
     return this.#viewer === 0;
   }
 
-  /** At first and after the context was restored. */
-  start() {
-    this.#core.GL.makeContextCurrent(this.#context);
+  #start() {
+    this.#context.makeCurrent();
     this.gl.getExtension('KHR_parallel_shader_compile'); // where there is one, the core asks when shaders are ready
-    this.#viewer = this.#core.ccall('vtViewer_Create', 'number', ['number', 'number'], [1, 1]);
+    const other = [...this.#context.drawers].find((viewer) => !viewer.isLost);
+    this.#viewer = this.#core.ccall('vtViewer_Create', 'number', ['number', 'number', 'number'], [1, 1, other?.address ?? 0]);
     const problem = this.#viewer === 0 ? 'out of memory' : this.problem();
     if (problem) throw new Error(problem);
   }
 
-  /** The context is lost: so is everything in it. */
-  stop() {
-    this.#core.GL.makeContextCurrent(this.#context);
-    if (this.#viewer !== 0) this.#core.ccall('vtViewer_Destroy', null, ['number'], [this.#viewer]);
+  #stop() {
+    if (this.#viewer === 0) return;
+    this.#context.makeCurrent();
+    this.#core.ccall('vtViewer_Destroy', null, ['number'], [this.#viewer]);
     this.#viewer = 0;
   }
 
-  /** Gives everything back; the canvas cannot be used again. */
+  get address() {
+    return this.#viewer;
+  }
+
+  onLost() {
+    if (this.isLost) return;
+    this.#stop();
+    this.told.lost();
+  }
+
+  onRestored() {
+    try {
+      this.#start();
+      this.told.restored('');
+    } catch (reason) {
+      this.told.restored(reason.message);
+    }
+  }
+
+  /** The element is in view again: should the context be lost, there is another. */
+  seen() {
+    const { drawers } = this.#context;
+    drawers.delete(this); // the last to be asked for room
+    drawers.add(this);
+    if (this.isLost) this.#context.renew();
+  }
+
+  /** Gives everything back. */
   destroy() {
-    const { gl } = this;
-    this.stop();
-    viewers.delete(this);
-    this.#core.GL.deleteContext(this.#context);
-    this.#core.GL.makeContextCurrent(0);
-    if (!gl.isContextLost()) gl.getExtension('WEBGL_lose_context')?.loseContext(); // now, not when garbage is collected
-    this.#canvas.width = this.#canvas.height = 0;
+    this.#stop();
+    this.#context.drawers.delete(this);
+    this.#context.leave(this);
+    if (this.#context.drawers.size > 0) return;
+    this.#context.destroy();
+    context = null;
+  }
+
+  /** As Context.enter: `act` may draw then, until `leave`. */
+  enter(isUrgent, act) {
+    this.#context.enter(this, isUrgent, act);
+  }
+
+  leave() {
+    this.#context.leave(this);
+  }
+
+  /** Draws the next sample of a picture of that size, if there is anything to draw. @returns {number} as vtViewer_Tick */
+  draw(width, height) {
+    this.#context.resize(width, height);
+    return this.call('Tick');
+  }
+
+  /** What has been drawn is shown on a canvas. */
+  showOn(canvas) {
+    this.#context.show(canvas);
+  }
+
+  /** On the GPU. */
+  get bytes() {
+    return this.isLost ? 0 : this.call('Bytes');
   }
 
   call(name, ...values) {
-    this.#core.GL.makeContextCurrent(this.#context);
+    this.#context.makeCurrent();
     const types = values.map((value) => (typeof value === 'string' ? 'string' : 'number'));
     return this.#core.ccall(`vtViewer_${name}`, 'number', ['number', ...types], [this.#viewer, ...values]);
   }
@@ -155,7 +204,7 @@ export class Viewer {
 
   /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */
   attemptFile(name, source) {
-    this.#core.GL.makeContextCurrent(this.#context);
+    this.#context.makeCurrent();
     const more = source.spec === undefined ? [] : [source.spec, this.#numberOf(source.contents)];
     const open = (call, ...values) => this.attempt(call, ...values, source.name, ...more);
     return openInCore(this.#core, this.gl, name, source.contents, open) ?? `${source.name}: too large for the memory of this page`;
@@ -222,7 +271,7 @@ export class Viewer {
   /** Loads what the last frame lacked. @throws {Error} a sentence */
   async loadShaders() {
     const place = await loadShaders(this.#core);
-    if (this.isLost || !viewers.has(this)) return;
+    if (this.isLost) return;
     const problem = this.attempt('SetShaders', place);
     if (!problem) return;
     shaders = null;
@@ -235,6 +284,12 @@ export class Viewer {
 
   info() {
     return JSON.parse(this.#core.UTF8ToString(this.call('Info')));
+  }
+
+  /** @returns {object|null} a material of what is shown (vtViewer_Material); null past the last one */
+  material(index) {
+    const place = this.call('Material', index);
+    return place === 0 ? null : JSON.parse(this.#core.UTF8ToString(place));
   }
 
   /** The exact path through a pixel (vtViewer_Path); throws the sentence where it fails. */

@@ -34,12 +34,12 @@ function reliefOf(values) {
  * @param {object} values of the attributes
  * @returns {{url: string, walls: string, variantName: string, parts: {kind: 'model'|'relief', url: string, spec: string}[]}}
  */
-export function wishOf({ src, objects, relief, walls, variantName, ...more }) {
+export function wishOf({ src, objects, relief, walls, variantName, placement = '', ...more }) {
   const specs = objects.split(/[;\n]/).map((text) => text.trim().replace(/\s*([:=,])\s*/g, '$1')).filter(Boolean);
   const parts = specs.map((spec) => ({ kind: 'model', url: spec.replace(/:[^:/]*$/, ''), spec })); // URLs have a slash behind their last colon
   if (relief !== '') parts.unshift(reliefOf({ relief, ...more }));
-  else if (src !== '') parts.unshift({ kind: 'model', url: src, spec: '' });
-  const first = relief === '' ? src : `${relief} ${parts[0].spec}`;
+  else if (src !== '') parts.unshift({ kind: 'model', url: src, spec: placement && `model:${placement}` });
+  const first = relief === '' ? src + placement : `${relief} ${parts[0].spec}`;
   const url = specs.length === 0 ? first : [first, ...specs].join('\n');
   const looks = parts.length === 0 || (walls === 'auto' && variantName === '') ? '' : `\n${walls}\n${variantName}`;
   return { url: url + looks, walls, variantName, parts };
@@ -65,6 +65,15 @@ export function builtIn(kind, url) {
   return names.includes(url) ? { url, name: url, contents: null } : null;
 }
 
+/** Why a fetch failed, as far as a browser tells; whether another server is there, a request shows whose answer nobody may read. */
+async function explain(href, { message }) {
+  const { origin, host } = new URL(href);
+  if (navigator.onLine === false) return 'the browser is offline; try again once it is not';
+  if (origin === location.origin) return `the server cannot be reached (${message})`;
+  const isThere = await fetch(href, { method: 'HEAD', mode: 'no-cors' }).then(() => true, () => false);
+  return isThere ? `${host} does not let this page read it; it has to answer with Access-Control-Allow-Origin` : `${host} cannot be reached (${message})`;
+}
+
 /**
  * @param {string} url relative to the page
  * @param {AbortSignal} signal
@@ -74,9 +83,9 @@ export function builtIn(kind, url) {
 export async function fetchSource(url, signal, onBytes) {
   const { href, pathname } = new URL(url, document.baseURI);
   const name = pathname.split('/').pop() || url;
-  const response = await fetch(href, { signal }).catch((reason) => {
+  const response = await fetch(href, { signal }).catch(async (reason) => {
     if (signal.aborted) throw reason;
-    throw new Error(`${name}: cannot be fetched: ${reason.message}`, { cause: reason });
+    throw new Error(`${name}: cannot be fetched: ${await explain(href, reason)}`, { cause: reason });
   });
   if (!response.ok) {
     const answer = `the server answered ${response.status} ${response.statusText}`.trim();

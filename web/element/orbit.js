@@ -1,5 +1,6 @@
-// The camera: about a target, in the words of model-viewer. Angles in radians, lengths in the model's unit
-// (metres in glTF); azimuth theta is 0 towards +Z and grows towards +X, phi is the angle from +Y.
+// Where the camera shall be: about a target, in the words of model-viewer.
+import { View } from './view.js';
+
 const lowestPhi = Math.PI / 90;
 const nearest = 0.25, farthest = 4; // of the distance that shows the whole object
 const lengths = { m: 1, cm: 0.01, mm: 0.001 };
@@ -9,28 +10,28 @@ function quantity(text, units) {
   return digits !== undefined && Object.hasOwn(units, unit) ? Number(digits) * units[unit] : NaN;
 }
 
-const angle = (text) => quantity(text, { deg: Math.PI / 180, rad: 1 });
-const words = (text, count, name) => {
+export const angle = (text) => quantity(text, { deg: Math.PI / 180, rad: 1 });
+export const words = (text, count, name) => {
   const list = text.trim().split(/\s+/);
   if (list.length === count) return list;
   throw new Error(`${name} is '${text}'; it must have ${count} parts`);
 };
 
 /**
- * @param {string} text of camera-orbit
- * @returns {{theta: number|null, phi: number|null, radius: {value: number, unit: 'm'|'%'}}} null: auto
+ * @param {string} text of camera-orbit, or of its limits
+ * @returns {{theta: number|null, phi: number|null, radius: {value: number, unit: 'm'|'%'}|null}} null: auto
  * @throws {Error} a sentence
  */
-export function parseOrbit(text) {
-  const [theta, phi, radius] = words(text, 3, 'camera-orbit');
-  const percent = radius === 'auto' ? 100 : quantity(radius, { '%': 1 });
+export function parseOrbit(text, name = 'camera-orbit') {
+  const [theta, phi, radius] = words(text, 3, name);
+  const percent = quantity(radius, { '%': 1 });
   const orbit = {
     theta: theta === 'auto' ? null : angle(theta),
     phi: phi === 'auto' ? null : angle(phi),
-    radius: Number.isNaN(percent) ? { value: quantity(radius, lengths), unit: 'm' } : { value: percent, unit: '%' },
+    radius: radius === 'auto' ? null : Number.isNaN(percent) ? { value: quantity(radius, lengths), unit: 'm' } : { value: percent, unit: '%' },
   };
-  if ([orbit.theta, orbit.phi, orbit.radius.value].some(Number.isNaN) || orbit.radius.value <= 0) {
-    throw new Error(`camera-orbit is '${text}'; it must be like '30deg 75deg 100%': deg or rad twice, then m, cm, mm or % above 0, or auto`);
+  if ([orbit.theta, orbit.phi, orbit.radius?.value].some(Number.isNaN) || orbit.radius?.value <= 0) {
+    throw new Error(`${name} is '${text}'; it must be like '30deg 75deg 100%': deg or rad twice, then m, cm, mm or % above 0, or auto`);
   }
   return orbit;
 }
@@ -42,29 +43,50 @@ export function parseTarget(text) {
   return target;
 }
 
+/**
+ * Where a model lies, as keys of `objects`. Turned by YXZ, as model-viewer does; those keys turn by ZYX.
+ * @returns {string} '': as it is @throws {Error} a sentence
+ */
+export function parsePlacement(orientation, scale) {
+  const angles = words(orientation, 3, 'orientation').map(angle);
+  const factors = scale.trim().split(/\s+/).map(Number);
+  if (angles.some(Number.isNaN)) throw new Error(`orientation is '${orientation}'; it must be like '0deg 90deg 0deg': deg or rad thrice`);
+  if (![1, 3].includes(factors.length) || !factors.every((factor) => factor > 0 && factor < Infinity)) throw new Error(`scale is '${scale}'; it must be one or three numbers above 0`);
+  const [[sz, sx, sy], [cz, cx, cy]] = [angles.map(Math.sin), angles.map(Math.cos)];
+  const turns = [Math.atan2(cy * sx * cz + sy * sz, cx * cy), Math.asin(Math.max(-1, Math.min(1, sy * cz - cy * sx * sz))), Math.atan2(cx * sz, cy * cz + sy * sx * sz)];
+  const keys = [turns.some((turn) => turn !== 0) && `rotate=${turns.map((turn) => (turn * 180) / Math.PI)}`, factors.some((factor) => factor !== 1) && `scale=${factors}`];
+  return keys.filter(Boolean).join();
+}
+
 /** @returns {number|null} degrees; null: auto */
-export function parseFieldOfView(text) {
+export function parseFieldOfView(text, name = 'field-of-view') {
   if (text.trim() === 'auto') return null;
   const degrees = (angle(text.trim()) * 180) / Math.PI;
   if (degrees >= 1 && degrees <= 170) return degrees;
-  throw new Error(`field-of-view is '${text}'; it must be 1deg to 170deg, in deg or rad, or auto`);
+  throw new Error(`${name} is '${text}'; it must be 1deg to 170deg, in deg or rad, or auto`);
 }
 
 export const usualFieldOfView = 45; // degrees
 
-/** Where the camera is. What is auto follows `framed`, the view that shows the whole object. */
-export class Orbit {
+const clamp = (value, low, high) => Math.min(high ?? Infinity, Math.max(low ?? -Infinity, value));
+const none = { theta: null, phi: null, radius: null };
+
+/** What is auto follows `framed`, the view that shows the whole object. */
+export class Orbit extends View {
   framed = { theta: 0, phi: Math.PI / 2, distance: 1, target: [0, 0, 0], fieldOfView: usualFieldOfView };
   wantedFieldOfView = null; // vertical, degrees; null: auto
+  wantedTarget = [null, null, null];
+  /** As parseOrbit and parseFieldOfView give them; null: none. */
+  limits = { low: none, high: none, lowFieldOfView: null, highFieldOfView: null };
 
   constructor() {
-    this.place(parseOrbit('auto auto auto'));
-    this.aim([null, null, null]);
+    super();
+    this.place(none);
   }
 
   place({ theta, phi, radius }) {
     this.wanted = { theta, phi };
-    this.radius = { ...radius };
+    this.radius = radius === null ? { value: 100, unit: '%' } : { ...radius };
   }
 
   aim(target) {
@@ -79,74 +101,57 @@ export class Orbit {
   }
 
   get fieldOfView() {
-    return this.wantedFieldOfView ?? this.framed.fieldOfView;
+    return this.limitFieldOfView(this.wantedFieldOfView ?? this.framed.fieldOfView);
+  }
+
+  limitFieldOfView(degrees) {
+    return clamp(degrees, this.limits.lowFieldOfView, this.limits.highFieldOfView);
   }
 
   get theta() {
-    return this.wanted.theta ?? this.framed.theta;
+    const { low, high } = this.limits;
+    return clamp(this.wanted.theta ?? this.framed.theta, low.theta, high.theta);
   }
 
   get phi() {
-    return Math.min(Math.PI - lowestPhi, Math.max(lowestPhi, this.wanted.phi ?? this.framed.phi));
+    const { low, high } = this.limits;
+    return clamp(clamp(this.wanted.phi ?? this.framed.phi, low.phi, high.phi), lowestPhi, Math.PI - lowestPhi);
   }
 
   get distance() {
-    return this.radius.unit === '%' ? (this.framed.distance * this.radius.value) / 100 : this.radius.value;
+    const { low, high } = this.limits;
+    return clamp(this.#lengthOf(this.radius), this.#lengthOf(low.radius), this.#lengthOf(high.radius));
+  }
+
+  #lengthOf(radius) {
+    return radius?.unit === '%' ? (this.framed.distance * radius.value) / 100 : radius?.value;
   }
 
   get target() {
     return this.wantedTarget.map((value, i) => value ?? this.framed.target[i]);
   }
 
-  get eye() {
-    const { theta, phi, distance, target } = this;
-    const direction = [Math.sin(phi) * Math.sin(theta), Math.cos(phi), Math.sin(phi) * Math.cos(theta)];
-    return target.map((value, i) => value + distance * direction[i]);
-  }
-
   /** The eye goes right and up. */
   turn(right, up) {
-    const phi = Math.min(Math.PI - lowestPhi, Math.max(lowestPhi, this.phi - up));
-    this.wanted = { theta: this.theta + right, phi };
+    this.wanted = { theta: this.theta + right, phi: this.phi - up };
+    this.wanted = { theta: this.theta, phi: this.phi }; // within the limits
   }
 
-  /** Nearer with a factor below 1; within a quarter and four times the framed distance. */
+  /** Nearer with a factor below 1; within the limits, else a quarter and four times the framed distance. */
   zoom(factor) {
-    const { distance, framed } = this;
-    const low = Math.min(distance, nearest * framed.distance), high = Math.max(distance, farthest * framed.distance);
-    this.radius.value *= Math.min(high, Math.max(low, distance * factor)) / distance;
+    const { distance, framed, limits } = this;
+    const low = limits.low.radius ? 0 : Math.min(distance, nearest * framed.distance);
+    const high = limits.high.radius ? Infinity : Math.max(distance, farthest * framed.distance);
+    this.radius.value *= clamp(distance * factor, low, high) / this.#lengthOf(this.radius);
+    this.radius.value *= this.distance / this.#lengthOf(this.radius);
   }
 
   /** The target goes right and up by parts of the picture's height. */
   pan(right, up) {
     const { target } = this;
     const height = 2 * this.distance * Math.tan((this.fieldOfView * Math.PI) / 360);
-    const { across, upwards } = this.#axes();
+    const { across, upwards } = this.axes();
     this.wantedTarget = target.map((value, i) => value + height * (right * across[i] + up * upwards[i]));
-  }
-
-  /** Unit vectors of the picture's right and up. */
-  #axes() {
-    const { theta, phi } = this;
-    const across = [Math.cos(theta), 0, -Math.sin(theta)];
-    const upwards = [-Math.cos(phi) * Math.sin(theta), Math.sin(phi), -Math.cos(phi) * Math.cos(theta)];
-    return { across, upwards };
-  }
-
-  /** Where a world point is seen: x and y from -1 to 1 within the picture, right and up. */
-  project(point, aspect) {
-    const { eye, target, distance } = this;
-    const { across, upwards } = this.#axes();
-    const dot = (a, b) => a.reduce((sum, value, i) => sum + value * b[i], 0);
-    const offset = point.map((value, i) => value - eye[i]);
-    const depth = Math.max(1e-6 * distance, dot(offset, target.map((value, i) => (value - eye[i]) / distance)));
-    const tangent = Math.tan((this.fieldOfView * Math.PI) / 360);
-    return [dot(offset, across) / (depth * tangent * aspect), dot(offset, upwards) / (depth * tangent)];
-  }
-
-  /** As camera-orbit would have it. */
-  toString() {
-    return `${this.theta}rad ${this.phi}rad ${this.distance}m`;
   }
 
   /** For those who cannot see it. */

@@ -2,11 +2,15 @@
 // seen and something changed; once all rests, samples are added to the picture until it has enough.
 import { builtIn } from './loading.js';
 import { Viewer } from './core.js';
+import { listMaterials } from './materials.js';
 import { decodeTexture } from './picture.js';
+import { Motion } from './motion.js';
 import { Orbit, usualFieldOfView } from './orbit.js';
 import { Quality, levels } from './quality.js';
 
 const largestDpr = 2; // canvas pixels per CSS pixel
+const largestSide = 16384; // of a frame, as the core's table has it
+const mostPixels = 2 ** 24; // 1 GB on the GPU, with its samples
 const slice = 12; // milliseconds of building a scene at once
 const stillAfter = 250; // milliseconds without motion until the full frame
 
@@ -16,7 +20,7 @@ const stillAfter = 250; // milliseconds without motion until the full frame
  * @property {(kind: 'model'|'environment', sentence: string) => void} rejected what was shown before stays
  * @property {(milliseconds: number) => void} frame is on the screen
  * @property {(detail: object) => void} scaled of the render-scale event
- * @property {() => void} turned by itself
+ * @property {(isByItself: boolean) => void} turned or moved
  * @property {(cause: string, sentence: string) => void} warned of something left out; '': of nothing any more
  * @property {(sentences: string[]) => void} noted what of the files that are shown is left out or changed
  * @property {() => void} lost the context
@@ -33,7 +37,12 @@ function variantProblem({ variantName = '', parts }) {
 }
 
 export class Stage {
+  /** Where the camera shall be. */
   orbit = new Orbit();
+  /** Where it is, on its way there. */
+  view = new Motion(this.orbit);
+  /** Of that way, milliseconds; 0: it is there at once. */
+  decay = 0;
   quality = new Quality();
   /** Of Viewer.setGlass, for a full frame; the element's attributes. */
   glass = {};
@@ -53,6 +62,7 @@ export class Stage {
   #visible = false;
   #spin = 0;
   #lastTime = 0;
+  #lastStep = 0; // of the view's way
   #dirty = false;
   #isRefining = false; // samples may be missing
   #frame = 0; // of requestAnimationFrame
@@ -61,6 +71,7 @@ export class Stage {
   #still = 0; // timer
   #framedFor = ''; // aspect and field of view
   #refused = null; // the technique that the scene is too large for
+  #refusal = ''; // what is wrong with the last frame, a sentence
   #drawn = {}; // detail of the last render-scale
 
   /** @param {HTMLElement} host holds a canvas @param {Told} told */
@@ -71,7 +82,7 @@ export class Stage {
 
   set core(core) {
     this.#core = core;
-    this.#openIfSeen();
+    if (this.#visible) this.#beSeen();
   }
 
   get isVisible() {
@@ -80,8 +91,7 @@ export class Stage {
 
   set isVisible(visible) {
     this.#visible = visible;
-    if (!visible && this.#viewer?.isLost) this.close(); // it gets a new one
-    this.#openIfSeen();
+    if (visible) this.#beSeen();
     this.#schedule();
   }
 
@@ -112,7 +122,14 @@ export class Stage {
     this.#schedule();
   }
 
-  /** The view moved: less is drawn until it rests. */
+  /** Before the orbit changes: the view goes there from where it is. */
+  depart() {
+    if (this.decay === 0 || !this.#visible || !this.#filled || this.view.isMoving) return;
+    this.view.depart();
+    this.#lastStep = performance.now();
+  }
+
+  /** The view shall move, or has: less is drawn until it rests. */
   moved() {
     this.quality.moving = true;
     this.#awaitStill();
@@ -129,8 +146,6 @@ export class Stage {
     this.#keepComing();
     this.#viewer.destroy();
     this.#viewer = null;
-    const canvas = this.#host.querySelector('canvas');
-    canvas.replaceWith(canvas.cloneNode()); // a canvas whose context was given up gets no other
   }
 
   /** As image(), but waits for shaders that are still to be loaded. @returns {Promise<ImageData>} */
@@ -146,9 +161,7 @@ export class Stage {
 
   /** The full picture. @returns {ImageData} @throws {Error} a sentence */
   image() {
-    if (this.#viewer === null) this.#open();
-    this.#goOn?.(Infinity);
-    if (!this.#filled || this.#viewer === null || this.#viewer.isLost) throw new Error('nothing is shown yet');
+    if (!this.#hasScene) throw new Error('nothing is shown yet');
     const [width, height] = this.#size(1);
     const canvas = this.#host.querySelector('canvas');
     if (this.#dirty || this.quality.level !== 0 || canvas.width !== width || canvas.height !== height) {
@@ -169,43 +182,65 @@ export class Stage {
     return this.#viewer.path(x * width, y * height);
   }
 
-  #openIfSeen() {
-    if (this.#visible && this.#viewer === null) this.#open();
+  /** Of what is shown, corners of its box. @returns {{low: number[], high: number[]}|null} null: nothing */
+  get box() {
+    return this.#hasScene ? this.#viewer.info() : null;
+  }
+
+  /** Of what is shown; what is set stays until there is another model. */
+  get materials() {
+    return listMaterials((index) => (this.#hasScene ? this.#viewer.material(index) : null), (index, text) => {
+      const problem = this.#hasScene ? this.#viewer.attempt('SetMaterial', index, `${index}:${text}`) : 'nothing is shown yet';
+      if (problem) throw new Error(problem);
+      this.scene.model.changes = [...(this.scene.model.changes ?? []).filter(([other, before]) => other !== index || before.split('=')[0] !== text.split('=')[0]), [index, text]];
+      this.invalidate();
+    });
+  }
+
+  /** In a viewer, which is there again where it was given back. */
+  get #hasScene() {
+    if (this.#viewer === null) this.#open();
+    if (this.#viewer !== null && !this.#viewer.isLost) this.#goOn?.(Infinity);
+    return this.#filled && this.#viewer !== null && !this.#viewer.isLost;
+  }
+
+  #beSeen() {
+    try {
+      if (this.#viewer === null) this.#open();
+      else this.#viewer.seen();
+    } catch (reason) {
+      this.#told.unsupported(reason.message);
+    }
   }
 
   #open() {
     if (this.#core === null) return;
-    const canvas = this.#host.querySelector('canvas');
-    const onCrowded = () => {
-      if (!this.#visible) this.close();
+    const told = {
+      lost: () => {
+        this.#busy = null;
+        this.#keepComing();
+        this.#told.lost();
+      },
+      restored: (problem) => {
+        if (problem) {
+          this.#told.failed(problem);
+          return;
+        }
+        this.#fill();
+        this.#told.restored();
+      },
+      crowded: () => {
+        if (!this.#visible) this.close();
+        return this.#viewer === null;
+      },
     };
     try {
-      this.#viewer = new Viewer(this.#core, canvas, onCrowded);
+      this.#viewer = new Viewer(this.#core, told);
     } catch (reason) {
-      canvas.replaceWith(canvas.cloneNode());
       this.#core = null; // not tried again
       this.#told.unsupported(reason.message);
       return;
     }
-    canvas.addEventListener('webglcontextlost', (event) => {
-      if (canvas.parentNode !== this.#host) return; // given up
-      event.preventDefault();
-      this.#busy = null;
-      this.#keepComing();
-      this.#viewer.stop();
-      this.#told.lost();
-    });
-    canvas.addEventListener('webglcontextrestored', () => {
-      if (canvas.parentNode !== this.#host) return;
-      try {
-        this.#viewer.start();
-      } catch (reason) {
-        this.#told.failed(reason.message);
-        return;
-      }
-      this.#fill();
-      this.#told.restored();
-    });
     this.#fill();
     this.#told.restored(); // in case the one before was lost
   }
@@ -259,6 +294,7 @@ export class Stage {
         if (!problem) {
           this.#framedFor = '';
           this.#refused &&= {};
+          for (const [index, text] of source.changes ?? []) viewer.attempt('SetMaterial', index, `${index}:${text}`);
           if (isNew) this.#told.noted(viewer.notes);
           this.#told.warned('variant', variantProblem(source));
         }
@@ -310,7 +346,7 @@ export class Stage {
   }
 
   #applyView() {
-    const { eye, target, fieldOfView } = this.orbit;
+    const { eye, target, fieldOfView } = this.view;
     return this.#viewer.attempt('SetView', ...eye, ...target, fieldOfView);
   }
 
@@ -324,16 +360,20 @@ export class Stage {
     const problem = cameraIndex === null ? '' : this.#viewer.attempt('UseCamera', cameraIndex);
     const hasCamera = cameraIndex !== null && !problem;
     if (!hasCamera) {
-      this.#viewer.attempt('SetView', 0, 0, 1, 0, 0, 0, orbit.wantedFieldOfView ?? usualFieldOfView);
+      this.#viewer.attempt('SetView', 0, 0, 1, 0, 0, 0, orbit.limitFieldOfView(orbit.wantedFieldOfView ?? usualFieldOfView));
       this.#viewer.call('ResetView', width / height);
     }
     const { eye, target, fov } = this.#viewer.info();
     orbit.frame(eye, target, fov);
+    this.view.jump();
     this.#told.warned('camera', problem);
   }
 
+  /** Canvas pixels per CSS pixel: fewer where the picture would be larger than it may be. */
   get #dpr() {
-    return Math.min(window.devicePixelRatio, largestDpr);
+    const { clientWidth, clientHeight } = this.#host;
+    const most = Math.min(largestSide / Math.max(1, clientWidth, clientHeight), Math.sqrt(mostPixels / Math.max(1, clientWidth * clientHeight)));
+    return Math.min(window.devicePixelRatio, largestDpr, most);
   }
 
   #size(scale) {
@@ -358,39 +398,36 @@ export class Stage {
     if (!isWanted || !canDraw || this.#busy !== null || this.#frame !== 0) return;
     this.#frame = requestAnimationFrame((time) => {
       this.#frame = 0;
-      this.#draw(time);
+      if (this.#viewer === null || this.#viewer.isLost) return;
+      this.#busy = 'waiting for its turn';
+      this.#viewer.enter(this.#dirty || this.#spin !== 0, () => this.#draw(time));
     });
   }
 
+  /** In its turn, which is over once there is nothing to wait for, or the picture is shown. */
   #draw(time) {
-    if (this.#viewer === null || this.#viewer.isLost) return;
+    this.#busy = null;
     if (this.#spin !== 0) {
       const seconds = this.#lastTime === 0 ? 0 : Math.min(0.2, (time - this.#lastTime) / 1000);
       this.#lastTime = time;
       this.orbit.turn(this.#spin * seconds, 0);
+      this.view.turn(this.#spin * seconds);
       this.quality.moving = true;
       this.#dirty = true;
-      this.#told.turned();
+      this.#told.turned(true);
     }
-    const canvas = this.#host.querySelector('canvas');
     const { quality } = this;
     const isNew = this.#dirty;
-    this.#dirty = false;
-    const [width, height] = this.#size(quality.scale);
-    let problem = '';
-    if (isNew) {
-      this.#frameObject();
-      problem = this.#applyGlass(this.glass, quality.lessened) || this.#applyView();
-      if (canvas.width !== width || canvas.height !== height || this.#drawn.pixelWidth === undefined) {
-        [canvas.width, canvas.height] = [width, height];
-        problem ||= this.#viewer.attempt('Resize', width, height);
-      }
-    }
+    this.#dirty = isNew && this.#step();
+    const { pixelWidth, pixelHeight } = this.#drawn;
+    const [width, height] = isNew ? this.#size(quality.scale) : [pixelWidth, pixelHeight];
+    let problem = isNew ? this.#prepare(width, height) : '';
     const start = performance.now();
-    const drawn = this.#viewer.call('Tick');
+    const drawn = this.#viewer.draw(width, height);
     this.#isRefining = drawn > 0;
     if (drawn === 2) { // shaders are being compiled, or are still to be loaded
       this.#dirty = isNew;
+      this.#viewer.leave();
       if (this.#viewer.lacksShaders) this.#awaitShaders();
       else this.#schedule();
       return;
@@ -398,10 +435,38 @@ export class Stage {
     if (this.#lacks) this.#told.warned('context', '');
     this.#lacks = false;
     if (drawn < 0) problem ||= this.#viewer.problem();
-    if (problem) this.#told.failed(problem);
+    if (isNew || problem) this.#tellRefusal(problem);
     if (isNew) this.#tellScale(width, height);
-    else if (drawn === 0) return;
-    this.#awaitFrame(start, quality.moving);
+    if (drawn === 1) this.#awaitFrame(start, quality.moving);
+    else this.#viewer.leave();
+  }
+
+  /** The view goes on to where it shall be. @returns {boolean} it is not there yet */
+  #step() {
+    if (!this.view.isMoving) return false;
+    const now = performance.now();
+    const isMoving = this.view.step(Math.min(100, now - this.#lastStep), this.decay);
+    this.#lastStep = now;
+    if (isMoving) {
+      this.quality.moving = true;
+      this.#awaitStill();
+    }
+    this.#told.turned(false);
+    return isMoving;
+  }
+
+  /** A new frame of that size. @returns {string} a sentence, or '' */
+  #prepare(width, height) {
+    this.#frameObject();
+    const problem = this.#applyGlass(this.glass, this.quality.lessened) || this.#applyView();
+    const { pixelWidth, pixelHeight } = this.#drawn;
+    return problem || (pixelWidth === width && pixelHeight === height ? '' : this.#viewer.attempt('Resize', width, height));
+  }
+
+  /** Until a frame is as it should be, once. */
+  #tellRefusal(problem) {
+    if (problem !== this.#refusal) this.#told.warned('frame', problem);
+    this.#refusal = problem;
   }
 
   #tellScale(pixelWidth, pixelHeight) {
@@ -444,6 +509,8 @@ export class Stage {
       }
       gl.deleteSync(fence);
       this.#busy = null;
+      this.#viewer.showOn(this.#host.querySelector('canvas'));
+      this.#viewer.leave();
       const milliseconds = performance.now() - start;
       if (moving) this.quality.note(milliseconds);
       this.#told.frame(milliseconds);

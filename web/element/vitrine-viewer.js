@@ -6,12 +6,13 @@ import { coreStatistics, loadCore } from './core.js';
 import { readGround } from './ground.js';
 import { Loader } from './loader.js';
 import { readBackground, wishOf } from './loading.js';
-import { parseFieldOfView, parseOrbit, parseTarget } from './orbit.js';
+import { parseFieldOfView, parseOrbit, parsePlacement, parseTarget } from './orbit.js';
 import { Stage } from './stage.js';
 import { createShadow } from './template.js';
 
 const spinSpeed = Math.PI / 32; // radians a second, as model-viewer's
 const spinPause = 3000; // milliseconds after the last touch
+const cameraWords = ['camera-orbit', 'camera-target', 'field-of-view', 'min-camera-orbit', 'max-camera-orbit', 'min-field-of-view', 'max-field-of-view'];
 
 /**
  * @fires load {url}: the model is in the picture
@@ -22,7 +23,7 @@ const spinPause = 3000; // milliseconds after the last touch
  * @fires frame {milliseconds}: one is on the screen, and how long it took
  * @fires render-scale {reportedDpr, renderedDpr, minimumDpr, pixelWidth, pixelHeight, preset, layers, steps, maxEvents, branches, wavelengths, reason}
  */
-export class VitrineViewer extends HTMLElement {
+export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   static observedAttributes = attributes.map(({ attribute }) => attribute);
 
   /** Where the wasm is, if not beside this module; set before the first element. @type {((name: string) => string)|undefined} */
@@ -44,6 +45,9 @@ export class VitrineViewer extends HTMLElement {
     loaded: (kind, source) => this.#stage.show(kind, source),
     failed: (kind, reason) => this.#fail('loadfailure', kind, reason.message, reason),
   });
+  #source = 'none'; // of the last motion
+  #hotspots = null; // promise of them
+  #prompt = null; // 'waiting', it, or 'seen'
   #isLoaded = false;
   #warnings = [];
   #hasFrame = false;
@@ -59,18 +63,20 @@ export class VitrineViewer extends HTMLElement {
     super();
     const { orbit } = this.#stage;
     const act = (change) => (...numbers) => {
+      this.#stage.depart();
       change(...numbers);
       this.#moved('user-interaction');
     };
     listenToControls(this.#shadow.view, {
       isActive: () => this.cameraControls,
       canZoom: () => !this.disableZoom,
+      canPan: () => !this.disablePan,
       turn: act((right, up) => orbit.turn(right, up)),
       pan: act((right, up) => orbit.pan(right, up)),
       zoom: act((factor) => orbit.zoom(factor)),
       reset: act(() => this.#placeCamera()),
     });
-    this.#access = new Access(this.#shadow, orbit, () => this.#moved('user-interaction'));
+    this.#access = new Access(this.#shadow, orbit, (change) => act(change)());
   }
 
   // ------------------------------------------------------------------------------------------------- for pages
@@ -103,22 +109,52 @@ export class VitrineViewer extends HTMLElement {
 
   /** @returns {{theta: number, phi: number, radius: number, toString: () => string}} radians and metres */
   getCameraOrbit() {
-    const { orbit } = this.#stage;
-    const text = String(orbit);
-    return { theta: orbit.theta, phi: orbit.phi, radius: orbit.distance, toString: () => text };
+    const { view } = this.#stage;
+    const text = String(view);
+    return { theta: view.theta, phi: view.phi, radius: view.distance, toString: () => text };
   }
 
   /** @returns {{x: number, y: number, z: number}} the point looked at, world */
   getCameraTarget() {
-    const [x, y, z] = this.#stage.orbit.target;
-    return { x, y, z };
+    return xyz(this.#stage.view.target);
+  }
+
+  /** @returns {number} degrees, vertical */
+  getFieldOfView() {
+    return this.#stage.view.fieldOfView;
+  }
+
+  /** The view is where the attributes and the visitor want it, without the way there. */
+  jumpCameraToGoal() {
+    this.#stage.view.jump();
+    this.#stage.invalidate();
+  }
+
+  /** @returns {{x: number, y: number, z: number}|null} sides of the box around all that is shown; null: nothing is */
+  getDimensions() {
+    const { box } = this.#stage;
+    return box && xyz(box.high.map((value, i) => value - box.low[i]));
+  }
+
+  /** @returns {{x: number, y: number, z: number}|null} its middle, world */
+  getBoundingBoxCenter() {
+    const { box } = this.#stage;
+    return box && xyz(box.high.map((value, i) => (value + box.low[i]) / 2));
+  }
+
+  /**
+   * Of what is shown, in the order of the files; what is set stays until there is another model.
+   * @returns {{opaque: boolean, ior: number, tint: number[], absorption: number[], absorptionDistance: number, roughness: number, dispersion: number}[]}
+   */
+  get materials() {
+    return this.#stage.materials;
   }
 
   /** World points in client coordinates, as they are seen now. @param {number[][]} points @returns {number[][]} */
   project(points) {
     const { left, top, width, height } = this.#shadow.view.getBoundingClientRect();
     return points.map((point) => {
-      const [x, y] = this.#stage.orbit.project(point, width / height);
+      const [x, y] = this.#stage.view.project(point, width / height);
       return [left + (0.5 + 0.5 * x) * width, top + (0.5 - 0.5 * y) * height];
     });
   }
@@ -133,7 +169,7 @@ export class VitrineViewer extends HTMLElement {
     const path = this.#stage.path((clientX - left) / width, (clientY - top) / height);
     if (path === null || path.events.length === 0) return null;
     const points = path.events.map(({ position }) => position);
-    const { distance } = this.#stage.orbit;
+    const { distance } = this.#stage.view;
     points.push(path.end ?? points.at(-1).map((value, i) => value + 0.3 * distance * path.direction[i]));
     const events = path.events.map((event) => ({ kind: event.kind, in: event.in, out: event.out }));
     return { events, points, screen: this.project(points), exited: path.exited };
@@ -141,6 +177,7 @@ export class VitrineViewer extends HTMLElement {
 
   /** Back to camera-orbit, camera-target and field-of-view. */
   resetView() {
+    this.#stage.depart();
     this.#placeCamera();
     this.#moved('none');
   }
@@ -169,9 +206,12 @@ export class VitrineViewer extends HTMLElement {
     const size = new ResizeObserver(() => this.#stage.invalidate());
     seen.observe(this);
     size.observe(this);
-    const motion = () => this.#updateSpin();
+    const motion = () => this.#update('');
     this.#reduced.addEventListener('change', motion);
-    this.#observers = [seen, size, { disconnect: () => this.#reduced.removeEventListener('change', motion) }];
+    const children = new MutationObserver(() => this.#placeHotspots());
+    children.observe(this, { childList: true, subtree: true, attributeFilter: ['slot', 'data-position', 'data-normal'] });
+    this.#placeHotspots();
+    this.#observers = [seen, size, { disconnect: () => this.#reduced.removeEventListener('change', motion) }, children];
     this.#watchPixelRatio();
     this.#update('src');
   }
@@ -194,6 +234,7 @@ export class VitrineViewer extends HTMLElement {
     this.#loader.abort();
     this.#stage.isVisible = false;
     this.#stage.close();
+    if (this.#prompt !== null) this.#endPrompt();
     this.#showPoster();
   }
 
@@ -204,7 +245,7 @@ export class VitrineViewer extends HTMLElement {
       this.#watchPixelRatio();
     };
     query.addEventListener('change', changed, { once: true });
-    this.#observers[3] = { disconnect: () => query.removeEventListener('change', changed) };
+    this.#observers[4] = { disconnect: () => query.removeEventListener('change', changed) };
   }
 
   #see(isSeen) {
@@ -242,6 +283,8 @@ export class VitrineViewer extends HTMLElement {
     const behind = readBackground(this.#background);
     const { technique, ior, roughness, dispersion, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, toneMapping, samples } = values;
     stage.cameraIndex = values.cameraIndex;
+    stage.decay = this.#reduced.matches ? 0 : values.interpolationDecay;
+    attempt(problems, () => (values.placement = parsePlacement(values.orientation, values.scale)));
     const { ground, problems: ofGround } = readGround(values);
     problems.push(...ofGround);
     stage.glass = { ground, technique, ior, roughness: roughness ?? -1, dispersion: dispersion ?? -1, fresnel, preset, layers, steps, 'max-events': maxEvents, output, layer, samples, exposure: Math.log2(exposure), 'tone-mapping': toneMapping, background: behind, 'background-blur': behind.blur };
@@ -253,7 +296,8 @@ export class VitrineViewer extends HTMLElement {
     if (values.poster !== '' && img.getAttribute('src') !== values.poster) img.src = values.poster;
     this.#showPoster();
 
-    if (isFirst || ['camera-orbit', 'camera-target', 'field-of-view', 'camera-index'].some((name) => changed.has(name))) {
+    if (isFirst || [...cameraWords, 'camera-index'].some((name) => changed.has(name))) {
+      stage.depart();
       problems.push(...this.#placeCamera());
       this.#changedCamera('none');
     }
@@ -263,25 +307,22 @@ export class VitrineViewer extends HTMLElement {
     if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
     this.#updateSpin();
     stage.invalidate();
-    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
+    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */
   #placeCamera() {
     const { orbit } = this.#stage;
-    const attempts = [
-      () => orbit.place(parseOrbit(this.cameraOrbit)),
-      () => orbit.aim(parseTarget(this.cameraTarget)),
-      () => (orbit.wantedFieldOfView = parseFieldOfView(this.fieldOfView)),
-    ];
+    const { limits } = orbit;
     const problems = [];
-    for (const attempt of attempts) {
-      try {
-        attempt();
-      } catch (reason) {
-        problems.push(reason.message);
-      }
-    }
+    attempt(problems, () => orbit.place(parseOrbit(this.cameraOrbit)));
+    attempt(problems, () => orbit.aim(parseTarget(this.cameraTarget)));
+    attempt(problems, () => (orbit.wantedFieldOfView = parseFieldOfView(this.fieldOfView)));
+    attempt(problems, () => (limits.low = parseOrbit(this.minCameraOrbit, 'min-camera-orbit')));
+    attempt(problems, () => (limits.high = parseOrbit(this.maxCameraOrbit, 'max-camera-orbit')));
+    attempt(problems, () => (limits.lowFieldOfView = parseFieldOfView(this.minFieldOfView, 'min-field-of-view')));
+    attempt(problems, () => (limits.highFieldOfView = parseFieldOfView(this.maxFieldOfView, 'max-field-of-view')));
+    this.#stage.view.unwind();
     return problems;
   }
 
@@ -351,7 +392,7 @@ export class VitrineViewer extends HTMLElement {
       },
       frame: (milliseconds) => this.#onFrame(milliseconds),
       scaled: (detail) => this.#dispatch('render-scale', detail),
-      turned: () => this.#changedCamera('none'),
+      turned: (isByItself) => this.#changedCamera(isByItself ? 'none' : this.#source),
       lost: () => this.#fail('webglcontextlost', 'context', 'The graphics context was lost; the picture comes back with it.'),
       restored: () => this.#say('context', ''),
       failed: (sentence) => this.#fail('loadfailure', 'context', sentence),
@@ -359,19 +400,59 @@ export class VitrineViewer extends HTMLElement {
     };
   }
 
+  async #placeHotspots() {
+    if (!this.querySelector(':scope > [slot^=hotspot]') && this.#hotspots === null) return;
+    this.#hotspots ??= import('./hotspots.js').then(({ Hotspots }) => new Hotspots(this), (reason) => {
+      const sentence = this.#lacksModule('hotspots', reason);
+      return { place: () => [sentence] };
+    });
+    this.#say('hotspots', (await this.#hotspots).place(this.#stage.view).join('. '));
+  }
+
+  #lacksModule(name, reason) {
+    const sentence = `element/${name}.js cannot be loaded (${reason.message}); serve it with the element`;
+    this.#fail('loadfailure', name, sentence, reason);
+    return sentence;
+  }
+
+  /** After a while that nobody has touched it. */
+  #awaitPrompt() {
+    const { interactionPrompt, cameraControls, interactionPromptThreshold } = this.#values;
+    if (interactionPrompt !== 'auto' || !cameraControls || this.#prompt !== null) return;
+    this.#prompt = 'waiting';
+    this.#timers.prompt = setTimeout(async () => {
+      const { Prompt } = await import('./prompt.js').catch((reason) => this.#lacksModule('prompt', reason));
+      if (!Prompt || this.#prompt !== 'waiting') return;
+      this.#prompt = new Prompt(this.shadowRoot, !this.#reduced.matches, (right) => {
+        this.#stage.orbit.turn(right, 0);
+        this.#stage.moved();
+      });
+    }, interactionPromptThreshold);
+  }
+
+  #endPrompt() {
+    clearTimeout(this.#timers.prompt);
+    this.#prompt?.stop?.();
+    this.#prompt = 'seen';
+  }
+
   #onFrame(milliseconds) {
     this.#hasFrame = true;
+    if (this.#hotspots !== null) this.#placeHotspots();
     this.#showPoster();
     this.#dispatch('frame', { milliseconds });
     if (this.#isLoaded || this.#stage.scene.model?.url !== this.#wish.url) return;
     this.#isLoaded = true;
+    this.#awaitPrompt();
     this.#loader.progress?.advance(1);
     this.#access.follow();
     this.#dispatch('load', { url: this.#values.relief || this.#values.src });
   }
 
   #moved(source) {
+    this.#source = source;
     if (source === 'user-interaction') {
+      this.#endPrompt();
       clearTimeout(this.#timers.pause);
       this.#timers.pause = setTimeout(() => {
         this.#timers.pause = 0;
@@ -406,6 +487,16 @@ export class VitrineViewer extends HTMLElement {
   }
 }
 
+const xyz = ([x, y, z]) => ({ x, y, z });
+
+function attempt(problems, act) {
+  try {
+    act();
+  } catch (reason) {
+    problems.push(reason.message);
+  }
+}
+
 function paint(image) {
   const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
   canvas.getContext('2d').putImageData(image, 0, 0);
@@ -413,4 +504,5 @@ function paint(image) {
 }
 
 defineProperties(VitrineViewer.prototype);
-customElements.get('vitrine-viewer') ?? customElements.define('vitrine-viewer', VitrineViewer);
+// Where a server renders the page there are none.
+if (globalThis.customElements && !customElements.get('vitrine-viewer')) customElements.define('vitrine-viewer', VitrineViewer);

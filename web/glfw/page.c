@@ -27,7 +27,7 @@ EMSCRIPTEN_KEEPALIVE vtPage* vtPage_Start(int width, int height)
                "browser");
         return page;
     }
-    page->viewer = vtViewer_Create(width, height);
+    page->viewer = vtViewer_Create(width, height, NULL);
     if (page->viewer != NULL) {
         page->error = page->viewer->error;
     }
