@@ -21,6 +21,9 @@ const events = [
     detail: '{ sentences: string[] }',
     description: 'Something of the model’s files is left out or changed, as ignored extensions; the property `warnings` keeps it.',
   },
+  { name: 'play', detail: 'null', description: 'An animation begins to play.' },
+  { name: 'pause', detail: 'null', description: 'It stands still.' },
+  { name: 'loop', detail: 'null', description: 'It begins anew.' },
   { name: 'frame', detail: '{ milliseconds: number }', description: 'A frame is on the screen, and how long it took.' },
   { name: 'camera-change', detail: "{ source: 'user-interaction' | 'none' }", description: 'The view has changed.' },
   {
@@ -41,6 +44,10 @@ const properties = [
     description: 'Of what is shown, in the order of the files; each property can be set, as the keys of `objects` have it, and stays until there is another model.',
   },
   { name: 'availableVariants', type: 'string[]', description: 'Names of the variants of materials that the files shown have, for variant-name.' },
+  { name: 'availableAnimations', type: 'string[]', description: 'Names of the animations that the files shown have, for animation-name.' },
+  { name: 'duration', type: 'number', description: 'Seconds of the animation; 0 without any.' },
+  { name: 'paused', type: 'boolean', description: 'True unless an animation plays.' },
+  { name: 'currentTime', type: 'number', writable: true, description: 'Of the animation, seconds; setting it shows that time.' },
 ];
 
 const methods = [
@@ -62,6 +69,8 @@ const methods = [
       "pathAt(clientX: number, clientY: number): { events: { kind: 'refraction' | 'reflection'; in: number; out: number }[]; points: number[][]; screen: number[][]; exited: boolean } | null",
     description: 'The exact path of light through a point of the page; null where no glass is. Angles to the normal in degrees.',
   },
+  { signature: 'play(): void', description: 'Plays the animation round and round, while the element is in view.' },
+  { signature: 'pause(): void', description: 'Stops it where it is.' },
   { signature: 'resetView(): void', description: 'Back to the view that the attributes ask for.' },
 ];
 
@@ -116,7 +125,7 @@ export declare class VitrineViewer extends HTMLElement {
   /** What all elements of the page hold, what of the files they show is left out or changed, and of those that move and are drawn in less than full quality the detail of render-scale. */
   static statistics: () => Promise<{ contexts: number; viewers: number; gpuBytes: number; heapBytes: number; warnings: string[]; lessened: VitrineViewerEventMap['render-scale']['detail'][] }>;
 ${attributes.map((row) => `  /** ${row.description} Default: ${defaultOf(row) || 'empty'}. */\n  ${row.property}: ${typeOf(row)};`).join('\n')}
-${properties.map(({ name, type, description }) => `  /** ${description} */\n  readonly ${name}: ${type};`).join('\n')}
+${properties.map(({ name, type, writable, description }) => `  /** ${description} */\n  ${writable ? '' : 'readonly '}${name}: ${type};`).join('\n')}
 ${methods.map(({ signature, description }) => `  /** ${description} */\n  ${signature};`).join('\n')}
   addEventListener<K extends keyof VitrineViewerEventMap>(type: K, listener: (event: VitrineViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;
   addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;

@@ -14,7 +14,7 @@ const folder = join(root, 'build/package');
 const version = readFileSync(join(root, 'src/vitrine.h'), 'utf8').match(/VT_VERSION "([^"]+)"/)[1];
 
 // Modules that are loaded only for files that need them; with two of them WebAssembly.
-const decoders = ['exr', 'unpack', 'draco', 'meshopt', 'basis'];
+const decoders = ['exr', 'unpack', 'draco', 'meshopt', 'basis', 'animation'];
 // Modules that are loaded once an element asks for what they do.
 const extras = ['hotspots', 'prompt'];
 const decoderFiles = [...decoders.map((name) => `element/${name}.js`), 'element/draco.wasm', 'element/basis.wasm'];
@@ -59,7 +59,7 @@ writeFileSync(join(folder, 'custom-elements.json'), `${JSON.stringify(manifest, 
 cpSync(join(root, 'docs/web.md'), join(folder, 'README.md'));
 cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
 for (const name of decoderFiles) cpSync(join(web, name), join(folder, name));
-await build({ ...small, entryPoints: ['unpack', ...extras].map((name) => join(web, `element/${name}.js`)), sourcemap: true, outdir: join(folder, 'element') });
+await build({ ...small, entryPoints: ['unpack', 'animation', ...extras].map((name) => join(web, `element/${name}.js`)), sourcemap: true, outdir: join(folder, 'element') });
 const licences = ['parse-exr/LICENSE.md', 'fflate/LICENSE', 'meshoptimizer/LICENSE.md'].map((name) => `\nnpm: ${dirname(name)}\n\n${readFileSync(join(root, 'tests/node_modules', name), 'utf8')}`);
 const apache = `
 npm: draco3dgltf (Draco, Copyright 2016 The Draco Authors)
@@ -116,7 +116,7 @@ writeFileSync(
         ...Object.fromEntries(Object.keys(frameworkTypes).map((name) => [`./${name}`, { types: `./${name}.d.ts` }])),
       },
       sideEffects: ['./element/vitrine-viewer.js', './vitrine-viewer.bundle.js'],
-      peerDependencies: { '@react-three/fiber': '>=8', react: '>=18', three: '>=0.163' },
+      peerDependencies: { '@react-three/fiber': '>=8', react: '>=18', three: '>=0.180' },
       peerDependenciesMeta: Object.fromEntries(['@react-three/fiber', 'react', 'three'].map((name) => [name, { optional: true }])),
       files: ['element', 'three', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-three.js', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', '*.d.ts', 'custom-elements.json', 'NOTICES.txt'],
       customElements: 'custom-elements.json',

@@ -1182,6 +1182,10 @@ describe('glTF files', () => {
     const rows = JSON.parse(vitrine(['bench', name, ...small, '--rounds', '1', '-t', 'exact', '--time', '1', '--json']).text);
     assert.ok(rows);
     assert.deepEqual(JSON.parse(vitrine(['inspect', name, '--json']).text).animations, [{ name: 'along', duration: 1 }, { name: 'up', duration: 1 }]);
+    if (spawnSync('sh', ['-c', 'command -v xvfb-run']).status === 0) {
+      const played = spawnSync('xvfb-run', ['-a', '-s', '-screen 0 800x600x24', binary, 'view', name, '--frames', '4', ...small], { cwd: folder, env: withoutLeakCheck });
+      assert.equal(played.status, 0, played.stderr.toString());
+    }
     assert.match(vitrine(['render', name, ...small, '-o', 'rest.png']).error, /ignored: 2 animations/);
     assert.equal(vitrine(['render', name, ...small, '--time', '0', '-o', 'rest.png']).error, '');
   });

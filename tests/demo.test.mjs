@@ -113,6 +113,7 @@ describe('the demo page', { skip }, () => {
     await page.addInitScript(watch);
     await page.goto(`${server.address}/demo/?${query}`);
     await settle(page);
+    await page.evaluate(() => (document.querySelector('details').open = true)); // what few ask for
     return page;
   }
 
@@ -314,6 +315,10 @@ describe('the demo page', { skip }, () => {
     }
     await page.screenshot({ path: join(screenshots, 'demo-normals.png') });
     assert.equal(await page.inputValue('#technique'), 'layered', 'which has layers to show');
+    await page.locator('#output input[value=picture]').check();
+    assert.equal(await page.inputValue('#technique'), 'exact', 'and the one before comes back');
+    await page.locator('#output input[value=layer-normal]').check();
+    await quiet(page);
     await slide(page, 'layer', 1);
     pictures.push(await seen(page));
     await page.selectOption('#technique', 'exact');
@@ -424,6 +429,7 @@ describe('the demo page', { skip }, () => {
     await drop(page, 'broken.glb', Buffer.from('not a model'));
     await page.waitForSelector('#error:not([hidden])');
     assert.match(await page.textContent('[role=alert]'), /broken\.glb/);
+    assert.equal(await page.locator('#gallery .shape', { hasText: 'broken' }).count(), 0, 'it leaves no tile');
     await page.screenshot({ path: join(screenshots, 'demo-error.png') });
     await page.getByRole('button', { name: 'Dismiss' }).click();
     assert.ok(difference(first, await seen(page)) < 0.5, 'the picture stays');
@@ -440,6 +446,11 @@ describe('the demo page', { skip }, () => {
     await page.waitForSelector('#error:not([hidden])');
     assert.match(await page.textContent('[role=alert]'), /broken\.hdr/);
     assert.ok(await page.locator('#environment input[value=sky]').isChecked());
+    await page.getByRole('button', { name: 'Dismiss' }).click();
+    await page.setInputFiles('#picture-file', { name: 'words.png', mimeType: 'image/png', buffer: Buffer.from('no picture') });
+    await page.waitForSelector('#error:not([hidden])');
+    assert.match(await page.textContent('[role=alert]'), /^words\.png: no picture that this browser can decode; save it as PNG/);
+    assert.equal(await page.inputValue('#compare'), 'none');
     await page.getByRole('button', { name: 'Dismiss' }).click();
     const red = new PNG({ width: 4, height: 2 });
     red.data.fill(Buffer.from([200, 10, 10, 255]));

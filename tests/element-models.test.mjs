@@ -52,6 +52,21 @@ const varied = () => model([
   { mesh: quad(0.1), material: thin(), translation: [0, 1.5, 0] }, // a file without glass is made all glass
 ], { variants: ['Green', 'Blue'] });
 
+/** Glass that goes along x from 0 to 0.6 in two seconds, and one that grows by the second animation, which lasts one. */
+const moving = () => edited(model([
+  { mesh: ball(0.5, 12), material: solid([0.7, 0.9, 0.8]) },
+  { mesh: ball(0.3, 8), material: solid([1, 0.8, 0.6]), translation: [-0.8, 0.6, 0] },
+]), (json) => {
+  const numbers = new Float32Array([0, 2, 0, 0, 0, 0.6, 0, 0, 0, 1, 1, 1, 1, 0.4, 1.5, 0.4]);
+  const add = (byteOffset, count, type) => {
+    const bufferView = json.bufferViews.push({ buffer: json.buffers.length, byteOffset, byteLength: 4 * count * (type === 'VEC3' ? 3 : 1) }) - 1;
+    return json.accessors.push({ bufferView, componentType: 5126, count, type }) - 1;
+  };
+  const animation = (name, node, path, input, output) => ({ name, samplers: [{ input, output }], channels: [{ sampler: 0, target: { node, path } }] });
+  json.animations = [animation('slide', 0, 'translation', add(0, 2, 'SCALAR'), add(8, 2, 'VEC3')), animation('grow', 1, 'scale', add(32, 2, 'SCALAR'), add(40, 2, 'VEC3'))];
+  json.buffers.push({ byteLength: numbers.byteLength, uri: `data:application/octet-stream;base64,${Buffer.from(numbers.buffer).toString('base64')}` });
+});
+
 function difference(a, b) {
   assert.deepEqual([a.width, a.height], [b.width, b.height]);
   let sum = 0, worst = 0;
@@ -315,9 +330,74 @@ describe('files in the element', { skip }, () => {
   });
 
   test('what is left out is in the statistics, too', async () => {
-    await show('noted.glb', edited(plain, (json) => (json.animations = [{}])));
+    await show('noted.glb', edited(plain, (json) => (json.extensionsUsed = [...(json.extensionsUsed ?? []), 'ACME_motion'])));
     const [warnings, statistics] = await page.evaluate(async () => [a.warnings, await customElements.get('vitrine-viewer').statistics()]);
-    assert.deepEqual(warnings, ["'noted.glb': ignored: 1 animation"]);
+    assert.deepEqual(warnings, ["'noted.glb': ignored: extension ACME_motion"]);
     assert.deepEqual(statistics.warnings, warnings);
+  });
+
+  const isPast = (seconds) => page.waitForFunction((least) => a.currentTime > least, seconds);
+  const picture = async () => PNG.sync.read(Buffer.from((await page.evaluate(() => a.toDataURL())).split(',')[1], 'base64'));
+
+  test('animations at a time, as the native program', async (t) => {
+    await show('plain.glb', plain);
+    assert.ok(!requests.some((name) => name.endsWith('animation.js')), 'not loaded for a file without');
+    const file = moving();
+    same(t, 'at rest', await show('moving.glb', file), native('moving.glb', file), 0.3);
+    assert.deepEqual(requests.filter((name) => name.endsWith('animation.js')), ['/element/animation.js']);
+    assert.deepEqual(await page.evaluate(() => [a.warnings, a.availableAnimations, a.duration, a.paused, a.currentTime]), [[], ['slide', 'grow'], 2, true, 0]);
+    await page.evaluate(() => (a.currentTime = 1.5));
+    await quiet(page);
+    same(t, 'the first', await picture(), native('moving.glb', null, '--time', '1.5'), 0.3);
+    await page.evaluate(() => (a.animationName = 'grow'));
+    await page.waitForFunction(() => a.duration === 1);
+    await page.evaluate(() => (a.currentTime = 9));
+    await quiet(page);
+    assert.equal(await page.evaluate(() => a.currentTime), 1);
+    same(t, 'the second', await picture(), native('moving.glb', null, '--time', '1', '--animation', 'grow'), 0.3);
+    await page.evaluate(() => (a.animationName = 'fly'));
+    await page.waitForFunction(() => a.shadowRoot.querySelector('[part=message]').textContent !== '');
+    assert.match(await said(), /^animation-name is 'fly'; the files have 'slide', 'grow'$/);
+    await assert.rejects(page.evaluate(() => (a.currentTime = NaN)), /currentTime is NaN; it must be a number of seconds/);
+    await page.evaluate(() => (a.animationName = ''));
+    await quiet(page);
+    same(t, 'another file', await show('plain.glb', plain), native('plain.glb', plain), 0.3);
+    assert.deepEqual(await page.evaluate(() => a.availableAnimations), []);
+    assert.deepEqual(complaints.splice(0), []);
+  });
+
+  test('animations are played, in view only, and not where motion is unwelcome', async () => {
+    await show('moving.glb', moving());
+    await page.evaluate(() => {
+      window.told = [];
+      for (const type of ['play', 'pause', 'loop']) a.addEventListener(type, () => window.told.push(type));
+      a.play();
+    });
+    await isPast(0.3);
+    await page.waitForFunction(() => window.told.includes('loop'), null, { timeout: 60000 });
+    const [paused, told] = await page.evaluate(() => [a.paused, (a.pause(), window.told)]);
+    assert.deepEqual([paused, told[0], told.at(-1)], [false, 'play', 'pause']);
+    await quiet(page);
+    const before = await page.evaluate(() => a.currentTime);
+    await quiet(page);
+    assert.equal(await page.evaluate(() => a.currentTime), before);
+
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+    await page.evaluate(() => (a.autoplay = true));
+    await quiet(page);
+    assert.equal(await page.evaluate(() => a.paused), true);
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    await page.waitForFunction(() => !a.paused);
+    await page.evaluate(() => Object.assign(document.body.style, { paddingTop: '5000px' }));
+    await page.waitForTimeout(300); // the observer tells a frame later
+    const hidden = await page.evaluate(() => a.currentTime);
+    await page.waitForTimeout(300);
+    assert.equal(await page.evaluate(() => a.currentTime), hidden);
+    await page.evaluate(() => Object.assign(document.body.style, { paddingTop: '0' }));
+    await page.waitForFunction((time) => a.currentTime !== time, hidden);
+    await page.evaluate(() => (a.autoplay = false));
+    await page.waitForFunction(() => a.paused);
+    await quiet(page);
+    assert.deepEqual(complaints.splice(0), []);
   });
 });

@@ -147,7 +147,7 @@ function startServer(requests, pages, gates) {
       send(textured(plain(250, 10, 20, 255)), 'model/gltf-binary');
     } else if (pathname === '/noted.glb') {
       const { json, bin } = gltf(cube);
-      send(glb({ json: { ...json, animations: [{}] }, bin }), 'model/gltf-binary');
+      send(glb({ json: { ...json, extensionsUsed: ['ACME_motion'] }, bin }), 'model/gltf-binary');
     } else if (pathname === '/unreadable.glb') {
       send(textured(plain(250, 10, 20, 255).fill(7, 16)), 'model/gltf-binary');
     } else if (pathname === '/slow.glb') {
@@ -457,6 +457,18 @@ describe('the element', { skip }, () => {
     const full = await shot(page);
     assert.notDeepEqual(pixel(full, 2, 2), [20, 90, 40]);
     assert.ok(difference(clear, full) > 30);
+  });
+
+  test('without a model there is no picture, and with the next one there is', async (t) => {
+    const page = await open(t, '<vitrine-viewer id="a" src="cube" technique="single"></vitrine-viewer>');
+    const first = await shot(page);
+    await page.evaluate(() => a.removeAttribute('src'));
+    await quiet(page);
+    assert.deepEqual(pixel(await shot(page), 80, 80), [20, 90, 40]);
+    await page.evaluate(() => (a.src = 'cube'));
+    await page.waitForFunction(() => a.loaded);
+    await quiet(page);
+    assert.equal(difference(first, await shot(page)), 0);
   });
 
   test('maps tones, and puts a background behind the scene', async (t) => {
@@ -844,7 +856,7 @@ describe('the element', { skip }, () => {
       a.src = '/noted.glb';
     });
     await page.waitForFunction(() => a.loaded);
-    assert.deepEqual(await page.evaluate(() => [told, a.warnings]), Array(2).fill(["'noted.glb': ignored: 1 animation"]));
+    assert.deepEqual(await page.evaluate(() => [told, a.warnings]), Array(2).fill(["'noted.glb': ignored: extension ACME_motion"]));
     await page.evaluate(() => (a.src = '/red.glb'));
     await page.waitForFunction(() => a.loaded);
     await quiet(page);

@@ -21,7 +21,7 @@ const missing = !existsSync(join(root, 'build/web/vitrine-core.wasm'))
       ? 'npm packages are not installed (tests/package.json)'
       : false;
 
-const decoders = ['exr.js', 'unpack.js', 'draco.js', 'draco.wasm', 'meshopt.js', 'basis.js', 'basis.wasm'];
+const decoders = ['exr.js', 'unpack.js', 'draco.js', 'draco.wasm', 'meshopt.js', 'basis.js', 'basis.wasm', 'animation.js'];
 
 describe('the package', { skip: missing }, () => {
   const folder = mkdtempSync(join(tmpdir(), 'vitrine-package-'));
@@ -180,13 +180,42 @@ describe('the package', { skip: missing }, () => {
     assert.equal(result.status, 0);
   });
 
+  test('glass in three.js, in a fresh Vite project', async () => {
+    const site = join(folder, 'three');
+    mkdirSync(site);
+    writeFileSync(join(site, 'package.json'), JSON.stringify({ private: true, type: 'module' }));
+    const installed = spawnSync('npm', ['install', '--offline', '--no-audit', '--no-fund', tarball], { cwd: site });
+    assert.equal(installed.status, 0, installed.stderr.toString());
+    symlinkSync(join(here, 'node_modules/three'), join(site, 'node_modules/three'));
+    writeFileSync(join(site, 'main.js'), `import { Mesh, MeshPhysicalMaterial, PerspectiveCamera, Scene, SphereGeometry, WebGLRenderer } from 'three';
+      import { createGlass } from 'vitrine-viewer/three';
+      const renderer = new WebGLRenderer(), scene = new Scene(), camera = new PerspectiveCamera();
+      camera.position.z = 4;
+      scene.add(new Mesh(new SphereGeometry(), new MeshPhysicalMaterial({ transmission: 1, thickness: 1, roughness: 0.2 })));
+      const glass = await createGlass(renderer);
+      await glass.compileAsync(scene, camera);
+      window.drawn = [glass.render(scene, camera), ...glass.notes];`);
+    writeFileSync(join(site, 'index.html'), `${head}<script type="module" src="/main.js"></script>`);
+    const built = spawnSync('node', [join(here, 'node_modules/vite/bin/vite.js'), 'build', '--logLevel', 'error', '--target', 'es2022'], { cwd: site });
+    assert.equal(built.status, 0, built.stderr.toString());
+    const server = await serve(join(site, 'dist')), page = await openPage(browser);
+    try {
+      await page.goto(`${server.address}/`);
+      await page.waitForFunction(() => window.drawn);
+      assert.deepEqual(await page.evaluate(() => window.drawn), [true]);
+    } finally {
+      await page.context().close();
+      server.close();
+    }
+  });
+
   test('holds types, manifest, a description and the licences', () => {
     const site = join(folder, 'look');
     mkdirSync(site);
     execFileSync('tar', ['-xzf', tarball, '-C', site]);
     const about = JSON.parse(readFileSync(join(site, 'package/package.json'), 'utf8'));
     assert.equal(Object.keys(about.exports['.'])[0], 'types');
-    for (const file of ['element/vitrine-viewer.js.map', 'element/hotspots.js', 'element/prompt.js', about.types, about.main, about.customElements, 'vitrine-core.wasm', 'vitrine-shaders.txt', 'README.md', 'LICENSE']) {
+    for (const file of ['element/vitrine-viewer.js.map', 'element/hotspots.js', 'element/prompt.js', about.types, about.main, about.customElements, ...['./three', './fiber'].flatMap((name) => Object.values(about.exports[name])), 'vitrine-core.wasm', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'README.md', 'LICENSE']) {
       assert.ok(existsSync(join(site, 'package', file)), file);
     }
     for (const file of decoders) assert.ok(existsSync(join(site, 'package/element', file)), file);
@@ -202,9 +231,15 @@ describe('the package', { skip: missing }, () => {
     const kilobytes = Number(report.match(/loads: ([\d.]+) KB/)[1]);
     context.diagnostic(report);
     assert.ok(kilobytes < 192, `${kilobytes} KB gzip`);
-    for (const [file, most] of Object.entries({ 'exr.js': 12, 'unpack.js': 4, 'draco.js': 14, 'draco.wasm': 70, 'meshopt.js': 9, 'basis.js': 14, 'basis.wasm': 260 })) {
+    const ofThree = Number(report.match(/three\/index.js: \d+ bytes, (\d+) gzip/)[1]);
+    assert.ok(ofThree > 0 && ofThree <= 10000, `vitrine-viewer/three: ${ofThree} bytes gzip beside its WebAssembly`);
+    for (const [file, most] of Object.entries({ 'exr.js': 12, 'unpack.js': 4, 'draco.js': 14, 'draco.wasm': 70, 'meshopt.js': 9, 'basis.js': 14, 'basis.wasm': 260, 'animation.js': 1 })) {
       const bytes = Number(report.match(new RegExp(`element/${file}: \\d+ bytes, (\\d+) gzip, loaded once a file needs it`))?.[1]);
       assert.ok(bytes > 0 && bytes < 1000 * most, `${file}: ${bytes} bytes gzip`);
+    }
+    for (const name of ['hotspots', 'prompt']) {
+      const bytes = Number(report.match(new RegExp(`element/${name}.js: \\d+ bytes, (\\d+) gzip, loaded once an element asks for it`))?.[1]);
+      assert.ok(bytes > 0 && bytes < 1500, `${name}: ${bytes} bytes gzip`);
     }
   });
 });

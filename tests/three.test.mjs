@@ -1,14 +1,18 @@
 // vitrine-viewer/three in headless Chromium on llvmpipe: glass in scenes of three.js's, of its newest version and of 0.180.
 // Needs what element.test.mjs needs; skips itself likewise.
 import assert from 'node:assert/strict';
-import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { gltf, glb } from '../scripts/glb.mjs';
 import { answerWithFile, chromiumPath, launch, listen, openPage, skipWithout } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
+const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
 const screenshots = join(here, '../build/screenshots');
 const skip = skipWithout(
   [existsSync(join(here, 'node_modules/three-0.180')), "node modules (run 'npm ci' in tests/)"],
@@ -72,6 +76,27 @@ describe('glass in three.js', { skip }, () => {
       if (where !== page) await where.context().close();
     });
   }
+
+  test('a knot bends light as the program draws it', { skip: skipWithout([existsSync(binary), binary]) }, async (context) => {
+    const { positions, indices, seen, eye } = await inPage(() => traceKnot());
+    const folder = mkdtempSync(join(tmpdir(), 'vitrine-three-'));
+    writeFileSync(join(folder, 'knot.glb'), glb(gltf({ positions, indices, ior: 1.5 })));
+    const ran = spawnSync(binary, ['render', join(folder, 'knot.glb'), '--directions', join(folder, 'knot.pfm'), '-o', join(folder, 'knot.png'),
+      '-r', '128,128', '--camera', eye.join(), '--target', '0,0,0', '--fov', '40', '--no-fresnel']);
+    assert.equal(ran.status, 0, ran.stderr.toString());
+    const bytes = readFileSync(join(folder, 'knot.pfm'));
+    rmSync(folder, { recursive: true });
+    const wanted = new Float32Array(bytes.buffer.slice(bytes.byteOffset + bytes.length - 4 * 3 * 128 * 128, bytes.byteOffset + bytes.length)); // lowest row first
+    let pixels = 0, near = 0;
+    for (let i = 0; i < 128 * 128; ++i) {
+      const [a, b] = [wanted.subarray(3 * i, 3 * i + 3), seen.slice(4 * i, 4 * i + 3)];
+      if (Math.abs(Math.hypot(...a) - 1) > 0.01) continue; // background, or lost
+      ++pixels;
+      near += (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / Math.hypot(...b) > Math.cos(Math.PI / 180) ? 1 : 0;
+    }
+    context.diagnostic(`${near} of ${pixels} within 1 degree`);
+    assert.ok(pixels > 3000 && near >= 0.99 * pixels, `${near} of ${pixels} directions within 1 degree`);
+  });
 
   test('a scene: post before the glass, ring through it, floor seen in it; three.js goes on as before', async () => {
     const { before: plain, glassy, after: again, bare, glInError, picture } = await inPage(async () => {

@@ -18,13 +18,11 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeti
     vec3 covered = p.transmittance * look.base.a, beside = p.transmittance - covered;
     vec3 sent = sentLight(look, dot(N, I) < 0.0 ? N : G, I, from, met.at);
 #ifdef WITH_BACKDROP
-    if (object >= u_scene.x) {
-        sent = asHostShows(p.position, sent);
-    }
+    sent = mix(sent, asHostShows(p.position, sent), bvec3(object >= u_scene.x));
 #endif
     sent *= covered;
 #ifdef WITH_ROUGH
-    bool isOpaque = object >= u_scene.x;
+    bool isOpaque = object >= u_scene.x; // it ends the path, whose lobe is what it was
     p.seen += isOpaque ? sent : vec3(0.0);
     sent = isOpaque ? vec3(0.0) : sent;
 #endif
@@ -48,7 +46,7 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeti
     bool reflected = false, isStraight = isThin || !isInterface || eta == 1.0;
 #ifdef WITH_ROUGH
     bool isMirror = (look.flags & VT_LOOK_MIRROR) != 0u, isBent = isThin ? look.ior != 1.0 : isInterface && (eta != 1.0 || isMirror);
-    float alpha = isBent ? look.roughness * look.roughness : 0.0;
+    float alpha = isBent && !isOpaque ? look.roughness * look.roughness : 0.0;
     bool isFacet = u_sample.y != 0 && alpha > 0.0;
     vec3 smoothN = dot(N, I) < 0.0 ? N : G, chance = chanceOfFacet(p.facets);
     vec3 n = isFacet ? facetNormal(smoothN, I, alpha, chance) : N;

@@ -31,6 +31,31 @@ vec3 towardsSun()
     return normalize(d + radius * (cos(angle) * right + sin(angle) * cross(d, right)));
 }
 
+// Does light that glass bends reach the ray's start as photons? Those on reliefs that are met by their heights are not
+// gathered.
+bool hasPhotons(Start from)
+{
+#ifdef WITH_GROUND
+#ifdef WITH_HEIGHTS
+    return !isRelief(from.object);
+#else
+    return true;
+#endif
+#else
+    return false;
+#endif
+}
+
+#if defined(WITH_GROUND) && !defined(WITH_HEIGHTS)
+// Share of light that comes to the ray's start from the direction L, from so far away: one search tells.
+vec3 lightArriving(Start ray, vec3 L, float farthest)
+{
+    ray.direction = L;
+    Meeting met = searchScene(ray);
+    float isFree = step(farthest, met.distance);
+    return isFree * exp(-min(met.distance, farthest) * glassOf(topOf(ray.media)).yzw);
+}
+#else
 // What an object's surface lets pass straight on. Takes the ray to its other side.
 vec3 passedBy(Meeting met, SurfaceHit hit, vec3 L, inout Media media)
 {
@@ -46,21 +71,6 @@ vec3 passedBy(Meeting met, SurfaceHit hit, vec3 L, inout Media media)
     float eta = glassOf(from).x / glassOf(topOf(media)).x;
     float reflected = eta == 1.0 || u_scene.z == 0 ? 0.0 : fresnel(abs(dot(hit.normal, L)), min(eta, 1.0 / eta));
     return (1.0 - reflected) * (from != topOf(media) ? readTint(met.object) : vec3(1.0));
-#endif
-}
-
-// Does light that glass bends reach the ray's start as photons? Those on reliefs that are met by their heights are not
-// gathered.
-bool hasPhotons(Start from)
-{
-#ifdef WITH_GROUND
-#ifdef WITH_HEIGHTS
-    return !isRelief(from.object);
-#else
-    return true;
-#endif
-#else
-    return false;
 #endif
 }
 
@@ -96,21 +106,34 @@ vec3 lightArriving(Start ray, vec3 L, float farthest)
     }
     return share;
 }
+#endif
 
-// Radiance that a surface sends of the sun's light, and of photons'. `at`: weights of the second and third corner; behind:
-// its triangle faces away from the viewer; N, G: on his side; R: mirrored direction of sight; matt: its colour; glossy:
-// share that it reflects about R.
-vec3 sunOn(Start from, vec2 at, bool behind, vec3 N, vec3 G, vec3 R, vec3 matt, vec3 glossy, float roughness)
+// Radiance that a surface sends of the sun's light, if nothing is in the way; L: the direction towards it. R: mirrored
+// direction of sight; matt: its colour; glossy: share that it reflects about R.
+vec3 sunLight(vec3 N, vec3 R, vec3 matt, vec3 glossy, float roughness, out vec3 L)
 {
-    vec3 L = towardsSun();
-    vec3 light = matt * max(dot(N, L), 0.0) / 3.14159265 + glossy * sunGlare(u_sun[0], R, roughness);
-    light *= u_sun[1].rgb * step(1e-4, dot(G, L));
+    L = towardsSun();
+    return u_sun[1].rgb * (matt * max(dot(N, L), 0.0) / 3.14159265 + glossy * sunGlare(u_sun[0], R, roughness));
+}
+
+// What is left of light from a direction where things are in the way. G: of the triangle, on the viewer's side.
+vec3 withShadows(Start from, vec3 G, vec3 L, float distance, vec3 light)
+{
+    light *= step(1e-4, dot(G, L));
     if (strongest(light) > 1e-5) {
-        light *= lightArriving(from, L, NOWHERE);
+        light *= lightArriving(from, L, distance);
     }
+    return light;
+}
+
+// Radiance of a matt white surface by photons. `at`: weights of the second and third corner; behind: its triangle faces
+// away from the viewer.
+vec3 photonLight(Start from, vec2 at, bool behind)
+{
+    vec3 light = vec3(0.0);
 #ifdef WITH_GROUND
     if (hasPhotons(from)) {
-        light += matt / 3.14159265 * causticLight(from.object, from.triangle, at, behind);
+        light = causticLight(from.object, from.triangle, at, behind) / 3.14159265;
     }
 #endif
     return light;

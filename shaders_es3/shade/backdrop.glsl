@@ -17,15 +17,16 @@ const int MOST_HOST_CROSSINGS = 4; // of things that a ray passes behind, and of
 vec3 hostPoint(vec3 from, vec3 towards, float s)
 {
     bool parallel = u_clip.w != 0.0;
-    vec3 h = parallel ? from + s * towards : (1.0 - s) * from + s * towards;
-    vec2 tangent = parallel ? h.xy : h.xy / h.z;
+    vec3 h = mix(1.0 - s, 1.0, parallel) * from + s * towards;
+    vec2 tangent = h.xy / mix(h.z, 1.0, parallel);
     vec2 share = (tangent - u_pictureFrustum.xy) / (u_pictureFrustum.zw - u_pictureFrustum.xy);
-    return vec3(share * vec2(u_size.xy), parallel || h.z <= 0.0 ? h.z : h.z / max(1.0 - s, 1e-6));
+    return vec3(share * vec2(u_size.xy), h.z / mix(max(1.0 - s, 1e-6), 1.0, any(bvec2(parallel, h.z <= 0.0))));
 }
 
 bool isOnHost(vec3 point)
 {
-    return point.z > 0.0 && all(greaterThanEqual(point.xy, vec2(0.0))) && all(lessThan(point.xy, vec2(u_size.xy)));
+    vec2 inside = step(vec2(0.0), point.xy) * (1.0 - step(vec2(u_size.xy), point.xy));
+    return inside.x * inside.y * float(point.z > 0.0) > 0.5;
 }
 
 // Depth of the host's picture at a pixel of ours.
@@ -51,13 +52,13 @@ vec3 hostColor(vec3 point, float spread)
     color = mix(color, blurred, step(0.01, level));
 #endif
     color = max(color, 0.0);
-    return (u_host.w & 4) != 0 ? color : srgbToLinear(color);
+    return mix(srgbToLinear(color), color, bvec3((u_host.w & 4) != 0));
 }
 
 // Pixels that a length in front of the eye takes, at a depth; of a direction's share at depth 1.
 float hostPixels(float depth)
 {
-    return float(u_size.y) / ((u_pictureFrustum.w - u_pictureFrustum.y) * (u_clip.w != 0.0 ? 1.0 : depth));
+    return float(u_size.y) / ((u_pictureFrustum.w - u_pictureFrustum.y) * mix(depth, 1.0, u_clip.w != 0.0));
 }
 
 // Light that comes from a place of something opaque of ours, which the host draws as well: as it has drawn it, where that is
@@ -65,8 +66,8 @@ float hostPixels(float depth)
 vec3 asHostShows(vec3 position, vec3 light)
 {
     vec3 point = hostPoint((u_worldToCamera * vec4(position, 1.0)).xyz, vec3(0.0), 0.0);
-    bool isShown = (u_host.w & 17) == 17 && isOnHost(point) && abs(depthAt(point) - point.z) < 0.005 * point.z;
-    return isShown ? hostColor(point, 0.0) / u_optics.z : light;
+    bool isShown = all(bvec3((u_host.w & 17) == 17, isOnHost(point), abs(depthAt(point) - point.z) < 0.005 * point.z));
+    return mix(light, hostColor(point, 0.0) / u_optics.z, bvec3(isShown));
 }
 
 // Light from the host's picture along a ray in the world; false where it does not show what the ray meets. lobe: of rough
@@ -80,46 +81,47 @@ bool lightFromHost(vec3 position, vec3 direction, vec3 lobe, out vec3 light)
     vec3 from = (u_worldToCamera * vec4(position, 1.0)).xyz;
     vec3 towards = mat3(u_worldToCamera) * direction;
     // Half of the steps lie nearer than the eye is.
-    towards *= u_clip.w != 0.0 ? min(u_clip.z, 1e6) : max(from.z, 1e-6);
-    float step = 1.0 / float(u_search.y), s = 0.0;
+    towards *= mix(max(from.z, 1e-6), min(u_clip.z, 1e6), u_clip.w != 0.0);
+    float part = 1.0 / float(u_search.y), s = 0.0;
     bool isFront = true, isCrossed = false, isInside = true, isMet = false;
     vec3 behind = from;
     for (int crossing = 0; crossing < MOST_HOST_CROSSINGS; ++crossing) {
         for (int i = 0; i < MOST_HOST_STEPS; ++i) {
-            vec3 next = hostPoint(from, towards, s + step);
+            vec3 next = hostPoint(from, towards, s + part);
             isInside = isOnHost(next);
-            bool isBehind = isInside && next.z >= depthAt(next);
-            isCrossed = isBehind && isFront;
+            bool isBehind = all(bvec2(isInside, next.z >= depthAt(next)));
+            isCrossed = all(bvec2(isBehind, isFront));
             isFront = !isBehind;
-            s = isCrossed ? s : s + step;
-            if (!isInside || isCrossed || s >= 1.0 - 0.5 * step) {
+            s += mix(part, 0.0, isCrossed);
+            if (any(bvec3(!isInside, isCrossed, s >= 1.0 - 0.5 * part))) {
                 break;
             }
         }
-        float low = s, part = step;
+        float low = s, rest = part;
         for (int i = 0; i < HOST_HALVINGS; ++i) {
-            part *= 0.5;
-            vec3 middle = hostPoint(from, towards, low + part);
-            low += middle.z >= depthAt(middle) ? 0.0 : part;
+            rest *= 0.5;
+            vec3 middle = hostPoint(from, towards, low + rest);
+            low += mix(rest, 0.0, middle.z >= depthAt(middle));
         }
         vec3 before = hostPoint(from, towards, low);
-        behind = hostPoint(from, towards, low + part);
+        behind = hostPoint(from, towards, low + rest);
         float depth = depthAt(behind);
         // A surface that the ray comes to lie behind, not the edge of one that it passes behind: it goes on beyond that.
-        isMet = isCrossed && behind.z - depth <= 0.05 * depth + 2.0 * abs(behind.z - before.z);
-        s += step;
-        if (!isCrossed || isMet) {
+        isMet = all(bvec2(isCrossed, behind.z - depth <= 0.05 * depth + 2.0 * abs(behind.z - before.z)));
+        s += part;
+        if (isCrossed == isMet) {
             break;
         }
     }
     vec3 infinite = hostPoint(from, towards, 1.0);
-    bool isSky = !isCrossed && isFront && isInside && isOnHost(infinite) && depthAt(infinite) == NOTHING_BEHIND && u_clip.w == 0.0;
+    bool isEnd = all(bvec4(!isCrossed, isFront, isInside, u_clip.w == 0.0));
+    bool isSky = all(bvec3(isEnd, isOnHost(infinite), depthAt(infinite) == NOTHING_BEHIND));
     float spread = 0.0;
 #ifdef WITH_ROUGH
-    float distance = length((behind.z - from.z) / (abs(towards.z) > 1e-9 ? towards.z : 1e-9) * towards);
+    float distance = length((behind.z - from.z) / mix(1e-9, towards.z, abs(towards.z) > 1e-9) * towards);
     float seen = lobe.x + distance * (2.0 * lobe.y + distance * lobe.z); // as lobeAfter; of two axes
-    spread = isMet ? sqrt(0.5 * max(seen, 0.0)) * hostPixels(behind.z) : sqrt(0.5 * lobe.z) * hostPixels(1.0);
+    spread = sqrt(0.5 * max(mix(lobe.z, seen, isMet), 0.0)) * hostPixels(mix(1.0, behind.z, isMet));
 #endif
-    light = hostColor(isMet ? behind : infinite, spread) / u_optics.z; // exposure is not for it
-    return isMet || isSky;
+    light = hostColor(mix(infinite, behind, bvec3(isMet)), spread) / u_optics.z; // exposure is not for it
+    return any(bvec2(isMet, isSky));
 }

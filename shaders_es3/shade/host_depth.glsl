@@ -7,12 +7,10 @@ const float NOTHING_BEHIND = 3e38;
 // nothing.
 float hostDepth(ivec2 pixel)
 {
-    if ((u_host.w & 2) == 0) {
-        return NOTHING_BEHIND;
-    }
     float z = 2.0 * texelFetch(u_hostDepth, clamp(pixel, ivec2(0), textureSize(u_hostDepth, 0) - 1), 0).r - 1.0;
-    float depth = u_clip.w != 0.0 ? (u_clip.y - z) / u_clip.x : u_clip.y / (z + u_clip.x);
-    return depth > 0.0 && depth < u_clip.z ? depth : NOTHING_BEHIND;
+    // Selected without branches, as loops call it (docs/method.md).
+    float depth = mix(u_clip.y / (z + u_clip.x), (u_clip.y - z) / u_clip.x, u_clip.w != 0.0);
+    return mix(NOTHING_BEHIND, depth, all(bvec3((u_host.w & 2) != 0, depth > 0.0, depth < u_clip.z)));
 }
 
 // What the host's depth buffer holds of a depth in front of the eye.

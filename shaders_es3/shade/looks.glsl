@@ -276,14 +276,17 @@ vec3 lightSent(int i, vec3 position, out vec3 L, out float distance)
 }
 
 // Radiance towards V of the scene's lights at a point: of a matt surface of that colour, and of a glossy one. G: of the
-// triangle, on V's side.
-vec3 lightOfLights(Start from, vec3 N, vec3 G, vec3 V, vec3 matt, vec3 F0, vec3 F90, float roughness)
+// triangle, on V's side. The sun comes after the others: `glossy` is the share of it that is reflected about R.
+vec3 lightOfLights(Start from, vec3 N, vec3 G, vec3 V, vec3 matt, vec3 F0, vec3 F90, float roughness, vec3 R, vec3 glossy)
 {
-    uvec4 head = materialTexel(0u);
+    int lamps = int(materialTexel(0u).x), count = lamps;
+#ifdef WITH_SHADE
+    ++count;
+#endif
     float r = max(roughness, 0.0525), a = r * r, nv = max(dot(N, V), 1e-3);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < VT_MOST_LIGHTS; ++i) {
-        if (i >= int(head.x)) {
+    for (int i = 0; i <= VT_MOST_LIGHTS; ++i) {
+        if (i >= count) {
             break;
         }
         float distance;
@@ -296,11 +299,10 @@ vec3 lightOfLights(Start from, vec3 N, vec3 G, vec3 V, vec3 matt, vec3 F0, vec3 
         float shadowing = 0.5 / (nl * sqrt(nv * nv * (1.0 - a * a) + a * a) + nv * sqrt(nl * nl * (1.0 - a * a) + a * a) + 1e-6);
         vec3 F = F0 + (F90 - F0) * pow(1.0 - vh, 5.0);
         vec3 light = sent * nl * (matt / 3.14159265 + F * (D * shadowing));
-#ifdef WITH_SHADE
-        light *= step(1e-4, dot(G, L));
-        if (strongest(light) > 1e-5) {
-            light *= lightArriving(from, L, distance);
-        }
+#ifdef WITH_SHADE // one call for all: software renderers take long to compile another
+        vec3 towards, sun = sunLight(N, R, matt, glossy, roughness, towards);
+        bvec3 isSun = bvec3(i == lamps);
+        light = withShadows(from, G, mix(L, towards, isSun), mix(distance, NOWHERE, isSun.x), mix(light, sun, isSun));
 #endif
         sum += light;
     }
@@ -319,19 +321,20 @@ vec3 sentLight(Look look, vec3 N, vec3 I, Start from, vec2 at)
     vec3 F0 = (metal + matt * dielectric) / max(glossy, 1e-6), G = dot(look.G, I) > 0.0 ? -look.G : look.G;
     float F90 = (look.metallic + matt * look.specular) / max(glossy, 1e-6);
     vec3 light = look.emissive;
+    vec3 R = normalize(I + 2.0 * cosine * N), sunShare = vec3(0.0);
     if (glossy > 0.0) {
-        vec3 R = normalize(I + 2.0 * cosine * N);
         vec3 share = reflectedShare(F0, F90, look.roughness, cosine);
         if (look.film.x > 0.0) {
             share = mix(share, filmReflectance(cosine, look.film, F0), look.film.x);
         }
         light += look.occlusion * (matt * look.base.rgb * diffuseLight(N) + glossy * specularLight(R, look.roughness, 0.0) * share);
+        sunShare = glossy * share;
 #ifdef WITH_SHADE
-        light += sunOn(from, at, dot(look.G, I) > 0.0, N, G, R, matt * look.base.rgb, glossy * share, look.roughness);
+        light += matt * look.base.rgb * photonLight(from, at, dot(look.G, I) > 0.0);
 #endif
     }
     light += lightOfLights(from, N, G, -I, matt * look.base.rgb, metal + (matt + look.passes) * dielectric,
-                           vec3(look.metallic + (matt + look.passes) * look.specular), look.roughness);
+                           vec3(look.metallic + (matt + look.passes) * look.specular), look.roughness, R, sunShare);
     // As it is, whatever the exposure.
     return (look.flags & VT_LOOK_UNLIT) != 0u ? look.base.rgb / u_optics.z : light;
 }

@@ -184,7 +184,8 @@ vec3 shadeOpaque(int object, OpaqueSurface at, vec3 I, float footprint)
     vec3 R = normalize(I + 2.0 * cosine * N), glossy = reflectedShare(F0, 1.0, roughness, cosine);
     vec3 light = diffuse + specularLight(R, roughness, width) * glossy + objectNumbers(object, VT_OBJECT_EMISSIVE).xyz;
 #ifdef WITH_SHADE
-    light += sunOn(at.from, at.corner, side < 0.0, N, side * G, R, (1.0 - metallic) * base, glossy, roughness);
+    vec3 L, matt = (1.0 - metallic) * base, sun = sunLight(N, R, matt, glossy, roughness, L);
+    light += withShadows(at.from, side * G, L, NOWHERE, sun) + matt * photonLight(at.from, at.corner, side < 0.0);
 #endif
     return light;
 }

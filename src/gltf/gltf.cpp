@@ -9,6 +9,7 @@
 #include "gltf/gltf.h"
 
 #include <cstring>
+#include <new>
 
 namespace vtGltf
 {
@@ -77,12 +78,36 @@ vtResult load(Loader& loader)
     Bytes text, bin;
     std::vector<uint32_t> materialOf;
     return splitFile(loader, &text, &bin) && parseDocument(loader, text, bin) &&
-                   findVariant(loader, &loader.variant) && readAnimations(loader) && placeNodes(loader) &&
-                   collectNodes(loader) && makeMaterials(loader, &materialOf) &&
-                   aimFactors(loader, materialOf) && makeMeshes(loader, materialOf) && guessSolid(loader) &&
-                   makeObjects(loader) && makeCameras(loader) && makeLights(loader) && makeNotes(loader)
+                   findVariant(loader, &loader.variant) && placeNodes(loader) && collectNodes(loader) &&
+                   makeMaterials(loader, &materialOf) && aimFactors(loader, materialOf) &&
+                   makeMeshes(loader, materialOf) && guessSolid(loader) && makeObjects(loader) &&
+                   makeCameras(loader) && makeLights(loader) && makeNotes(loader)
                ? vtSucceed(loader.error)
                : loader.result;
+}
+
+vtResult loadSafely(const vtModelDef* def, vtScene* scene, bool keeps, vtError* error,
+                    bool (*done)(Loader& loader, void* result), void* result)
+{
+    const char* name = def->name != nullptr ? def->name : "";
+    vtResult outcome;
+    *scene = vtScene{};
+#ifdef __cpp_exceptions
+    try {
+#endif
+        Loader loader = {{name, error}, def, scene, keeps};
+        outcome = load(loader) == vt_ok && (done == nullptr || done(loader, result)) ? vt_ok : loader.result;
+#ifdef __cpp_exceptions
+    } catch (const std::bad_alloc&) {
+        outcome = vtFail(error, vt_errorMemory, "model '%.200s': out of memory; simplify it", name);
+    } catch (...) {
+        outcome = vtFail(error, vt_errorFormat, "model '%.200s': it cannot be read" GLTF_DAMAGED, name);
+    }
+#endif
+    if (outcome != vt_ok) {
+        vtDestroyScene(scene);
+    }
+    return outcome;
 }
 
 } // namespace vtGltf
@@ -96,5 +121,5 @@ extern "C" vtResult vtLoadScene(const vtModelDef* def, vtScene* scene, vtError* 
     if (def->bytes == nullptr && def->size > 0) {
         return vtFailMissing(error, "vtLoadScene", "def->bytes");
     }
-    return vtGltf::loadSafely(def, scene, false, error, [](vtGltf::Loader&) { return true; });
+    return vtGltf::loadSafely(def, scene, false, error, nullptr, nullptr);
 }

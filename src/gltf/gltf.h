@@ -99,23 +99,6 @@ struct Skin {
     int inverseBindMatrices = -1;
 };
 
-/// A channel of an animation as the file has it; -1: it does not say.
-struct GivenChannel {
-    int sampler = -1, node = -1;
-    std::string path = {}, pointer = {};
-};
-
-struct GivenSampler {
-    int input = -1, output = -1;
-    std::string interpolation = {};
-};
-
-struct GivenAnimation {
-    std::string name = {};
-    std::vector<GivenSampler> samplers = {};
-    std::vector<GivenChannel> channels = {};
-};
-
 /// What an extension says of a compressed buffer view.
 struct Compressed {
     std::string extension = {}; // empty: it is not compressed
@@ -155,7 +138,6 @@ struct Loader : Report {
     uint64_t budget = mostExternalBytes;                 // what is left of it
     std::vector<Compressed> compressed = {};             // as many as model.bufferViews, or none
     std::vector<Skin> skins = {};
-    std::vector<GivenAnimation> animations = {};
     std::vector<size_t> reachedNodes = {}; // of the scene, in the order in which it names them
     std::vector<Picture> pictures = {};
     std::vector<Source> sources = {};
@@ -235,9 +217,6 @@ bool openPicture(Loader& loader, int index, std::vector<uint8_t>* contents, Byte
 /// The number of a texture's picture: that of an extension which is drawn (features.h), else the texture's
 /// own.
 bool findTextureSource(Loader& loader, int index, int* source);
-
-/// Fills the rig's animations, and tells its nodes what moves them.
-bool readAnimations(Loader& loader);
 
 /// Once the scene has materials: tells the channels that move them which they are.
 bool aimFactors(Loader& loader, const std::vector<uint32_t>& materialOf);
@@ -320,30 +299,9 @@ bool makeNotes(Loader& loader);
 /// Loads as vtOpenModel does, the rig with what it moves where the loader keeps it.
 vtResult load(Loader& loader);
 
-/// Calls load, then `done(loader)`, which returns false after a failure. Nothing that is thrown leaves it; on
-/// failure the scene is empty.
-template <typename Done>
-vtResult loadSafely(const vtModelDef* def, vtScene* scene, bool keeps, vtError* error, const Done& done)
-{
-    const char* name = def->name != nullptr ? def->name : "";
-    vtResult result;
-    *scene = vtScene{};
-#ifdef __cpp_exceptions
-    try {
-#endif
-        Loader loader = {{name, error}, def, scene, keeps};
-        result = load(loader) == vt_ok && done(loader) ? vt_ok : loader.result;
-#ifdef __cpp_exceptions
-    } catch (const std::bad_alloc&) {
-        result = vtFail(error, vt_errorMemory, "model '%.200s': out of memory; simplify it", name);
-    } catch (...) {
-        result = vtFail(error, vt_errorFormat, "model '%.200s': it cannot be read" GLTF_DAMAGED, name);
-    }
-#endif
-    if (result != vt_ok) {
-        vtDestroyScene(scene);
-    }
-    return result;
-}
+/// Calls load, then `done`, which returns false after a failure; null: nothing. Nothing that is thrown leaves
+/// it; on failure the scene is empty.
+vtResult loadSafely(const vtModelDef* def, vtScene* scene, bool keeps, vtError* error,
+                    bool (*done)(Loader& loader, void* result), void* result);
 
 } // namespace vtGltf

@@ -25,38 +25,11 @@ static int indexOf(const Json& in, const char* key)
     return at != in.end() ? at->get<int>() : -1;
 }
 
-static GivenChannel readChannel(const Json& entry)
+/// Element of a list under a key; null: it has no such.
+static const Json* entryOf(const Json& in, const char* key, int index)
 {
-    GivenChannel channel;
-    const auto target = entry.find("target");
-    channel.sampler = indexOf(entry, "sampler");
-    if (target != entry.end()) {
-        channel.node = indexOf(*target, "node");
-        channel.path = textOf(*target, "path");
-        const auto extensions = target->find("extensions");
-        if (extensions != target->end() && !extensions->empty()) {
-            channel.pointer = textOf(*extensions->begin(), "pointer");
-        }
-    }
-    return channel;
-}
-
-void listAnimations(Loader& loader, const Json& animations)
-{
-    for (const Json& entry : animations) {
-        GivenAnimation animation;
-        animation.name = textOf(entry, "name");
-        const auto samplers = entry.find("samplers"), channels = entry.find("channels");
-        for (size_t i = 0; samplers != entry.end() && i < samplers->size(); ++i) {
-            const Json& sampler = (*samplers)[i];
-            animation.samplers.push_back(
-                {indexOf(sampler, "input"), indexOf(sampler, "output"), textOf(sampler, "interpolation")});
-        }
-        for (size_t i = 0; channels != entry.end() && i < channels->size(); ++i) {
-            animation.channels.push_back(readChannel((*channels)[i]));
-        }
-        loader.animations.push_back(std::move(animation));
-    }
+    const auto at = in.find(key);
+    return at != in.end() && index >= 0 && (size_t)index < at->size() ? &(*at)[(size_t)index] : nullptr;
 }
 
 // ------------------------------------------------------------------------------------------------ curves
@@ -113,12 +86,13 @@ static bool findKind(Loader& loader, const std::string& what, const std::string&
 }
 
 /// Reads a sampler of values of so many numbers, 0: there can be none.
-static bool readCurve(Loader& loader, const std::string& what, const GivenSampler& given, bool isWeights,
+static bool readCurve(Loader& loader, const std::string& what, const Json& sampler, bool isWeights,
                       size_t components, Curve* curve)
 {
     Stream input, output;
-    if (!findKind(loader, what, given.interpolation, &curve->kind) ||
-        !openAccessor(loader, given.input, &input) || !openAccessor(loader, given.output, &output)) {
+    if (!findKind(loader, what, textOf(sampler, "interpolation"), &curve->kind) ||
+        !openAccessor(loader, indexOf(sampler, "input"), &input) ||
+        !openAccessor(loader, indexOf(sampler, "output"), &output)) {
         return false;
     }
     const uint64_t values = (uint64_t)input.count * (curve->kind == Curve::Kind::cubic ? 3 : 1) * components;
@@ -182,16 +156,24 @@ static bool findPath(const std::string& name, Path* path)
 }
 
 /// What a channel moves; *known false: nothing that can be played.
-static bool aim(Loader& loader, const GivenChannel& given, Channel* channel, bool* known)
+static bool aim(Loader& loader, const Json& given, Channel* channel, bool* known)
 {
-    std::string list, rest = given.path;
-    size_t index = (size_t)std::max(given.node, 0);
-    *known = given.node >= 0;
-    if (given.path == "pointer") {
-        *known = splitPointer(given.pointer, &list, &index, &rest);
+    const auto target = given.find("target");
+    *known = false;
+    if (target == given.end()) {
+        return true;
+    }
+    std::string list, path = textOf(*target, "path");
+    const int node = indexOf(*target, "node");
+    size_t index = (size_t)std::max(node, 0);
+    *known = node >= 0;
+    if (path == "pointer") {
+        const auto extensions = target->find("extensions");
+        const bool has = extensions != target->end() && !extensions->empty();
+        *known = has && splitPointer(textOf(*extensions->begin(), "pointer"), &list, &index, &path);
         if (*known && list == "materials") {
             const Factor* at = std::find_if(std::begin(factors), std::end(factors),
-                                            [&](const Factor& factor) { return rest == factor.pointer; });
+                                            [&](const Factor& factor) { return path == factor.pointer; });
             channel->path = Path::factor;
             channel->factor = at != std::end(factors) ? at : nullptr;
             channel->target = index;
@@ -200,7 +182,7 @@ static bool aim(Loader& loader, const GivenChannel& given, Channel* channel, boo
         }
         *known = *known && list == "nodes";
     }
-    *known = *known && findPath(rest, &channel->path);
+    *known = *known && findPath(path, &channel->path);
     channel->target = index;
     return !*known || loader.has("node", (int)index, loader.model.nodes.size());
 }
@@ -238,22 +220,26 @@ static bool checkRotations(Loader& loader, const std::string& what, const Curve&
     return true;
 }
 
-static bool addChannel(Loader& loader, const std::string& name, const GivenAnimation& given,
-                       const GivenChannel& from, Animation* animation)
+static bool addChannel(Loader& loader, const std::string& name, const Json& given, const Json& from,
+                       Animation* animation)
 {
     Channel channel = {};
     bool known = false;
-    if (!loader.has("sampler", from.sampler, given.samplers.size()) || !aim(loader, from, &channel, &known)) {
+    const int number = indexOf(from, "sampler");
+    const Json* sampler = entryOf(given, "samplers", number);
+    if ((sampler == nullptr &&
+         !loader.has("sampler", number, given.contains("samplers") ? given["samplers"].size() : 0)) ||
+        !aim(loader, from, &channel, &known)) {
         return false;
     }
     if (!known) {
         ++loader.unplayed;
         return true;
     }
-    const std::string what = name + ", sampler " + std::to_string(from.sampler) + ",";
+    const std::string what = name + ", sampler " + std::to_string(number) + ",";
     Curve curve;
-    if (!readCurve(loader, what, given.samplers[(size_t)from.sampler], channel.path == Path::weights,
-                   componentsOf(loader, channel), &curve) ||
+    if (!readCurve(loader, what, *sampler, channel.path == Path::weights, componentsOf(loader, channel),
+                   &curve) ||
         (channel.path == Path::rotation && !checkRotations(loader, what, curve))) {
         return false;
     }
@@ -267,16 +253,18 @@ static bool addChannel(Loader& loader, const std::string& name, const GivenAnima
     return true;
 }
 
-bool readAnimations(Loader& loader)
+bool readAnimations(Loader& loader, const Json& animations)
 {
     loader.rig.nodes.resize(loader.model.nodes.size());
-    loader.rig.animations.resize(loader.animations.size());
-    for (size_t i = 0; i < loader.animations.size(); ++i) {
-        const GivenAnimation& given = loader.animations[i];
+    loader.rig.animations.resize(animations.size());
+    for (size_t i = 0; i < animations.size(); ++i) {
+        const Json& given = animations[i];
+        const std::string name = quotable(textOf(given, "name"));
         Animation& animation = loader.rig.animations[i];
-        animation.name = quotable(given.name).c_str();
-        for (const GivenChannel& channel : given.channels) {
-            if (!addChannel(loader, "animation " + label((int)i, given.name), given, channel, &animation)) {
+        animation.name = name.c_str();
+        const Json* channel;
+        for (int k = 0; (channel = entryOf(given, "channels", k)) != nullptr; ++k) {
+            if (!addChannel(loader, "animation " + label((int)i, name), given, *channel, &animation)) {
                 return false;
             }
         }

@@ -305,8 +305,7 @@ bool parseDocument(Loader& loader, Bytes text, Bytes bin)
     }
     listPictures(loader, images);
     listSkins(loader, skins);
-    listAnimations(loader, animations);
-    return true;
+    return readAnimations(loader, animations);
 }
 
 } // namespace vtGltf

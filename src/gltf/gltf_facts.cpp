@@ -84,9 +84,11 @@ static bool collectFacts(const Loader& loader, vtModelFacts* facts)
 extern "C" vtResult vtInspectModel(const vtModelDef* def, vtScene* scene, vtModelFacts* facts, vtError* error)
 {
     *facts = vtModelFacts{};
-    const vtResult result = vtGltf::loadSafely(def, scene, true, error, [facts](vtGltf::Loader& loader) {
-        return vtGltf::collectFacts(loader, facts) || loader.fail(vt_errorMemory, "out of memory");
-    });
+    const auto collect = [](vtGltf::Loader& loader, void* to) {
+        return vtGltf::collectFacts(loader, (vtModelFacts*)to) ||
+               loader.fail(vt_errorMemory, "out of memory");
+    };
+    const vtResult result = vtGltf::loadSafely(def, scene, true, error, collect, facts);
     if (result != vt_ok) {
         vtDestroyModelFacts(facts);
     }

@@ -82,7 +82,8 @@ using Json = nlohmann::json;
 /// Drops what is not read of a file's JSON; refuses what tinygltf would misread.
 bool tidyDocument(Loader& loader, Json& document);
 
-/// What a tidied file says of its animations, for readAnimations.
-void listAnimations(Loader& loader, const Json& animations);
+/// Fills the rig's animations from a tidied file's, and tells its nodes what moves them. The model is there,
+/// but for its animations.
+bool readAnimations(Loader& loader, const Json& animations);
 
 } // namespace vtGltf

@@ -12,18 +12,20 @@ struct vtModel {
 namespace vtGltf
 {
 
-static vtModel* keep(Loader& loader)
+/// Makes the vtModel of what was loaded.
+static bool keep(Loader& loader, void* result)
 {
+    Text name = quotable(loader.name).c_str();
     void* memory = vtAllocate(1, sizeof(vtModel));
     if (memory == nullptr) {
-        loader.fail(vt_errorMemory, "out of memory; simplify it");
-        return nullptr;
+        return loader.fail(vt_errorMemory, "out of memory; simplify it");
     }
-    vtModel* model = new (memory) vtModel{{}, std::move(loader.rig)};
+    vtModel* model = new (memory) vtModel{std::move(name), std::move(loader.rig)};
     for (Animation& animation : model->rig.animations) {
         animation.facts.name = animation.name.c_str();
     }
-    return model;
+    *(vtModel**)result = model;
+    return true;
 }
 
 /// What may be shorter than the model needs, of what the caller gives.
@@ -77,15 +79,7 @@ extern "C" vtResult vtOpenModel(const vtModelDef* def, vtModel** model, vtScene*
     if (def->bytes == nullptr && def->size > 0) {
         return vtFailMissing(error, "vtOpenModel", "def->bytes");
     }
-    const vtResult result = vtGltf::loadSafely(def, scene, true, error, [model](vtGltf::Loader& loader) {
-        vtGltf::Text name = vtGltf::quotable(loader.name).c_str();
-        *model = vtGltf::keep(loader);
-        if (*model != nullptr) {
-            (*model)->name = std::move(name);
-        }
-        return *model != nullptr;
-    });
-    return result;
+    return vtGltf::loadSafely(def, scene, true, error, vtGltf::keep, model);
 }
 
 extern "C" void vtCloseModel(vtModel* model)

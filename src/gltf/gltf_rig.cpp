@@ -26,8 +26,9 @@ static double dot(const double* a, const double* b, size_t count)
 /// The shorter way round between two unit quaternions, into `a`.
 static void slerp(double* a, const double* b, double share)
 {
-    const double cosine = dot(a, b, 4), angle = std::acos(std::min(std::fabs(cosine), 1.0));
-    const double sine = std::sin(angle), sign = cosine < 0.0 ? -1.0 : 1.0;
+    const double cosine = dot(a, b, 4), most = std::min(std::fabs(cosine), 1.0);
+    const double sine = std::sqrt(1.0 - most * most), angle = std::atan2(sine, most),
+                 sign = cosine < 0.0 ? -1.0 : 1.0;
     const bool isNear = sine < 1e-6; // a straight line is as good
     const double first = isNear ? 1.0 - share : std::sin((1.0 - share) * angle) / sine;
     const double second = (isNear ? share : std::sin(share * angle) / sine) * sign;

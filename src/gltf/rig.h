@@ -8,7 +8,6 @@ extern "C" {
 #include "base/error.h"
 }
 
-#include <cstdlib>
 #include <new>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@ extern "C" {
 namespace vtGltf
 {
 
+#ifdef __cpp_exceptions
 /// Memory from the library's allocator.
 template <typename T> struct Allocator {
     using value_type = T;
@@ -27,11 +27,7 @@ template <typename T> struct Allocator {
     {
         T* memory = static_cast<T*>(vtAllocate(count, sizeof(T)));
         if (memory == nullptr) {
-#ifdef __cpp_exceptions
             throw std::bad_alloc();
-#else
-            abort(); // as operator new does there
-#endif
         }
         return memory;
     }
@@ -50,6 +46,10 @@ template <typename T> struct Allocator {
 };
 template <typename T> using Kept = std::vector<T, Allocator<T>>;
 using Text = std::basic_string<char, std::char_traits<char>, Allocator<char>>;
+#else // a page has one allocator, and its wasm shall have one kind of vector
+template <typename T> using Kept = std::vector<T>;
+using Text = std::string;
+#endif
 
 /// Whom sentences about a file go to. A function that returns false has called `fail`.
 struct Report {

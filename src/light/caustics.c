@@ -66,19 +66,10 @@ typedef struct Gathering {
     float* areas; ///< of a sample
 } Gathering;
 
-/// The twin of caustics.glsl's.
-static uint32_t hashOf(uint32_t object, uint32_t triangle)
-{
-    uint32_t x = triangle * 0x9e3779b1u ^ object * 0x85ebca77u;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ (x >> 13);
-}
-
 /// The slot of a triangle, or the free one where it belongs. `probes`: how many were looked at.
 static uint32_t findSlot(const Gathering* all, uint32_t object, uint32_t triangle, uint32_t* probes)
 {
-    uint32_t slot = hashOf(object, triangle) & all->slotMask;
+    uint32_t slot = vtCausticHash(object, triangle) & all->slotMask;
     *probes = 1;
     while (all->slots[slot] != 0) {
         const Patch* patch = &all->patches[all->slots[slot] - 1];
@@ -140,21 +131,6 @@ static Patch* patchOf(Gathering* all, const vtCausticHit* hit, const vtCornersOf
 
 // ------------------------------------------------------------------------------------------------ lattice
 
-/// The three samples about a place, and how much each counts.
-static void samplesAt(uint32_t sides, float u, float v, int32_t at[3][2], float weights[3])
-{
-    const float n = (float)sides, x = vtClamp(u, 0.0f, 1.0f) * n,
-                y = vtClamp(v, 0.0f, fmaxf(1.0f - u, 0.0f)) * n;
-    const int32_t i = (int32_t)fminf(x, n - 1.0f), j = (int32_t)fminf(y, n - 1.0f);
-    const float a = x - (float)i, b = y - (float)j;
-    const bool upper = a + b > 1.0f && i + j < (int32_t)sides - 1;
-    const int32_t places[3][2] = {{upper ? i + 1 : i, upper ? j + 1 : j}, {i + 1, j}, {i, j + 1}};
-    memcpy(at, places, sizeof places);
-    weights[0] = upper ? a + b - 1.0f : fmaxf(1.0f - a - b, 0.0f);
-    weights[1] = upper ? 1.0f - b : a;
-    weights[2] = upper ? 1.0f - a : b;
-}
-
 /// The area that a sample stands for: a third of each small triangle at it.
 static float areaOf(const Patch* patch, int32_t i, int32_t j)
 {
@@ -186,7 +162,7 @@ static uint64_t placeWindows(Gathering* all, const vtCaustics* caustics, float s
         Patch* patch = patchOf(all, &caustics->hits[i], of);
         int32_t at[3][2];
         float weights[3];
-        samplesAt(patch->sides, caustics->hits[i].u, caustics->hits[i].v, at, weights);
+        vtCausticSamples(patch->sides, caustics->hits[i].u, caustics->hits[i].v, at, weights);
         for (int k = 0; k < 3; ++k) {
             patch->lowI = at[k][0] < patch->lowI ? at[k][0] : patch->lowI;
             patch->lowJ = at[k][1] < patch->lowJ ? at[k][1] : patch->lowJ;
@@ -221,7 +197,8 @@ static bool shareCorners(Gathering* all)
         for (int k = 0; k < 3 && patch->sides == 1; ++k) {
             uint32_t bits[3];
             memcpy(bits, &patch->corners[k], sizeof bits);
-            uint32_t slot = hashOf(bits[0] ^ hashOf(bits[1], bits[2]), patch->object) & (size - 1);
+            uint32_t slot =
+                vtCausticHash(bits[0] ^ vtCausticHash(bits[1], bits[2]), patch->object) & (size - 1);
             while (owners[2 * slot + 1] != 0 &&
                    (owners[2 * slot] != patch->object || memcmp(&places[slot], bits, sizeof bits) != 0)) {
                 slot = (slot + 1) & (size - 1);
@@ -264,7 +241,7 @@ static void addHits(Gathering* all, const vtCaustics* caustics, const vtCornersO
         const Patch* patch = patchOf(all, hit, of);
         int32_t at[3][2];
         float weights[3];
-        samplesAt(patch->sides, hit->u, hit->v, at, weights);
+        vtCausticSamples(patch->sides, hit->u, hit->v, at, weights);
         for (int k = 0; k < 3; ++k) {
             float* sum = all->sums + 6 * (size_t)sampleOf(patch, at[k]) + (hit->behind ? 3 : 0);
             sum[0] += weights[k] * hit->flux.x;
@@ -342,56 +319,4 @@ bool vtCaustics_Gather(const vtCaustics* caustics, float spacing, const vtCorner
     vtFree(all.sums);
     vtFree(all.areas);
     return ready;
-}
-
-void vtDestroyCausticMap(vtCausticMap* map)
-{
-    vtFree(map->words);
-    *map = (vtCausticMap){0};
-}
-
-// --------------------------------------------------------------------------------------------------- read
-
-static vtVec3 readSample(const vtCausticMap* map, uint32_t at, bool behind)
-{
-    const size_t texel = 1 + 2 * (size_t)map->words[0] + 2 * (size_t)at + behind;
-    vtVec3 light;
-    memcpy(&light, map->words + 4 * texel, sizeof light);
-    return light;
-}
-
-vtVec3 vtCausticMap_Light(const vtCausticMap* map, uint32_t object, uint32_t triangle, float u, float v,
-                          bool behind)
-{
-    vtVec3 light = {0.0f, 0.0f, 0.0f};
-    if (map->words == NULL) {
-        return light;
-    }
-    const uint32_t mask = map->words[0] - 1;
-    uint32_t slot = hashOf(object, triangle) & mask;
-    const uint32_t* head = map->words + 4 * (1 + 2 * (size_t)slot);
-    for (int i = 1; i < VT_CAUSTIC_PROBES && head[0] != 0 && (head[0] != object + 1 || head[1] != triangle);
-         ++i) {
-        slot = (slot + 1) & mask;
-        head = map->words + 4 * (1 + 2 * (size_t)slot);
-    }
-    if (head[0] != object + 1 || head[1] != triangle) {
-        return light;
-    }
-    int32_t at[3][2];
-    float weights[3];
-    samplesAt(head[2], u, v, at, weights);
-    const int32_t width = (int32_t)head[6], height = (int32_t)head[7];
-    for (int k = 0; k < 3; ++k) {
-        uint32_t sample = head[4 + (at[k][0] == 1 ? 1 : at[k][1] == 1 ? 2 : 0)];
-        if (head[2] > 1) {
-            const int32_t x = at[k][0] - (int32_t)head[4], y = at[k][1] - (int32_t)head[5];
-            if (x < 0 || y < 0 || x >= width || y >= height) {
-                continue;
-            }
-            sample = head[3] + (uint32_t)(y * width + x);
-        }
-        light = vtMulAdd(light, weights[k], readSample(map, sample, behind));
-    }
-    return light;
 }

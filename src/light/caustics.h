@@ -2,8 +2,7 @@
 // left open, as in ground.h.
 #pragma once
 
-#include "base/math.h"
-#include "shaders_es3/common/constants.h"
+#include "light/caustic_map.h"
 
 /// A photon that has come down on a triangle.
 typedef struct vtCausticHit {
@@ -22,13 +21,6 @@ typedef struct vtCaustics {
 bool vtCaustics_Add(vtCaustics* caustics, const vtCausticHit* hit);
 void vtDestroyCaustics(vtCaustics* caustics);
 
-/// What is gathered, as shaders read it (constants.h, VT_CAUSTIC_...): rows of VT_CAUSTIC_COLUMNS texels of
-/// four words. Zeroed: nothing.
-typedef struct vtCausticMap {
-    uint32_t* words;
-    uint32_t rows;
-} vtCausticMap;
-
 /// The corners of a triangle, world.
 typedef struct vtCornersOf {
     void (*corners)(const void* data, uint32_t object, uint32_t triangle, vtVec3 p[3]);
@@ -38,8 +30,3 @@ typedef struct vtCornersOf {
 /// Gathers the hits on lattices of that spacing, world, or wider where they would be too many. *map is to be
 /// destroyed. False where memory is out; then it is zeroed.
 bool vtCaustics_Gather(const vtCaustics* caustics, float spacing, const vtCornersOf* of, vtCausticMap* map);
-void vtDestroyCausticMap(vtCausticMap* map);
-
-/// Irradiance at a place of a triangle. The twin of shaders_es3/ground/caustics.glsl.
-vtVec3 vtCausticMap_Light(const vtCausticMap* map, uint32_t object, uint32_t triangle, float u, float v,
-                          bool behind);

@@ -44,7 +44,8 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironm
            (vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? vt_traceHost : 0) |
            (any && only ? vt_traceOnlyHeights : 0) |
            (vtFrame_IsStrict(frame) && !looks && !rough ? vt_traceStrict : 0) |
-           (opaque && scene->lightCount > 0 ? vt_traceShade : 0) | (frame->countReads ? vt_traceCounted : 0);
+           (VT_SHADES_LOOKS && opaque && scene->lightCount > 0 ? vt_traceShade : 0) |
+           (frame->countReads ? vt_traceCounted : 0);
 }
 
 /// `photons`: rays of the ground's lights in place of those from the eye.

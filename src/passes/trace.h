@@ -24,7 +24,13 @@ typedef enum vtTraceVariant {
     vt_traceShade = 4096,    ///< opaque things are lit by the sun, or by lights of files
 } vtTraceVariant;
 
-#define VT_TRACE_PROGRAMS 32 ///< that are kept
+/// Do programs of materials that are not plain look for shadows? Chromium's SwiftShader compiles them for
+/// more than eight minutes then, so a page has none there.
+#ifdef __EMSCRIPTEN__
+#define VT_SHADES_LOOKS 0
+#else
+#define VT_SHADES_LOOKS 1
+#endif
 
 /// The techniques that need no image of the scene: from the eye to the light in one drawing (trace.frag).
 typedef struct vtTracePass {

@@ -55,10 +55,10 @@ bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame)
 static vtTraceVariant chooseTrace(const vtRenderer* renderer, const vtFrame* frame)
 {
     const bool ground = vtRenderer_ShowsGround(renderer, frame);
+    const bool shades = ground && hasOpaque(renderer) && (VT_SHADES_LOOKS || !renderer->scene.hasLooks);
     const vtSun sun = vtGivenSun(&renderer->ground.ground, &renderer->environment.sun);
     return vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame) |
-           (ground ? vt_traceGround : 0) |
-           (ground && hasOpaque(renderer) && vtSun_IsThere(&sun) ? vt_traceShade : 0);
+           (ground ? vt_traceGround : 0) | (shades && vtSun_IsThere(&sun) ? vt_traceShade : 0);
 }
 
 /// Is the sun of the environment a light of its own in the frame?

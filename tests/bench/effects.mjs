@@ -82,7 +82,7 @@ async function measure(one, options, folder) {
       const problem = await call('add', isPeer ? 'peer' : 'vitrine', name);
       if (problem) throw new Error(`${name}: ${problem}`);
       const tries = [];
-      for (const factor of isPeer ? [0.25, 0.5, 0.75, 1, 1.5] : [0]) {
+      for (const factor of !isPeer ? [0] : light ? [1] : [0.25, 0.5, 0.75, 1, 1.5]) { // of the mean chord
         for (const intensity of isPeer && light ? [0.02, 0.05, 0.1, 0.2, 0.5] : [0]) tries.push({ thickness: factor * shared.meanChord, intensity });
       }
       const row = { name, key };
@@ -90,7 +90,7 @@ async function measure(one, options, folder) {
         writeFileSync(file, Buffer.from(await call('picture', key, { reflects: true, what: 'picture', ...settings }), 'base64'));
         return flip(file, reference);
       };
-      for (const settings of light ? tries.filter(({ thickness }, i) => i < 1 || !isPeer || thickness === shared.meanChord) : tries) {
+      for (const settings of tries) {
         const trial = join(folder, 'try.png'), found = await draw(settings, trial);
         if (row.flip === undefined || found < row.flip) {
           Object.assign(row, { flip: found, settings });

@@ -65,7 +65,7 @@ function Ground({ ground: { low, color, sun, light }, ior, intensity, children }
   const shadow = { left: -3, right: 3, top: 3, bottom: -3, near: 1, far: 2 * far };
   const lamp = createElement('directionalLight', { key: 'sun', position, color: new THREE.Color(...light), intensity: 1, castShadow: true, 'shadow-mapSize': [1024, 1024], ...Object.fromEntries(Object.entries(shadow).map(([side, at]) => [`shadow-camera-${side}`, at])) });
   const plane = createElement('mesh', { key: 'plane', position: [0, low, 0], rotation: [-Math.PI / 2, 0, 0], receiveShadow: true },
-    createElement('planeGeometry', { args: [200, 200] }), createElement('meshStandardMaterial', { color: new THREE.Color(...color), roughness: 1 }));
+    createElement('planeGeometry', { args: [200, 200] }), createElement('meshPhysicalMaterial', { color: new THREE.Color(...color), roughness: 1, specularIntensity: 0 }));
   const caustics = createElement(Caustics, { key: 'caustics', position: [0, low + 0.001, 0], lightSource: sun, ior, intensity, worldRadius: 0.01, resolution: 1024, frames: Infinity, color: new THREE.Color(...color.map((value, k) => (value * light[k]) / 3)) },
     createElement('group', { position: [0, -low, 0] }, children));
   return [lamp, plane, caustics];

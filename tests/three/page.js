@@ -95,6 +95,22 @@ function throughBall(o, d) {
   return q < 0.02 ? null : refract(inside, out.negate(), 1.5);
 }
 
+/** A knot without normals of its own before surroundings that tell directions: its triangles, and the direction at each pixel, lowest row first. */
+async function traceKnot(side = 128) {
+  const renderer = makeRenderer({ side }), scene = new THREE.Scene(), camera = makeCamera();
+  scene.environment = scene.background = directionsTexture(2048, 1024);
+  const geometry = new THREE.TorusKnotGeometry(0.9, 0.3, 160, 24).deleteAttribute('normal');
+  scene.add(new THREE.Mesh(geometry, glassMaterial({ ior: 1.5 })));
+  const glass = await createGlass(renderer, { fresnel: false });
+  const target = new THREE.WebGLRenderTarget(side, side, { type: THREE.FloatType }), numbers = new Float32Array(4 * side * side);
+  renderer.setRenderTarget(target);
+  await glass.compileAsync(scene, camera);
+  renderer.readRenderTargetPixels(target, 0, 0, side, side, numbers);
+  glass.dispose();
+  const { position } = geometry.attributes;
+  return { positions: [...position.array], indices: [...geometry.index.array], seen: [...numbers].map((value) => 2 * value - 1), eye: camera.position.toArray() };
+}
+
 /** Directions in which light leaves a ball, beside the closed form; for each turn of the surroundings. */
 async function measureBall(turns, side = 128) {
   const renderer = makeRenderer({ side }), scene = new THREE.Scene(), camera = makeCamera();
@@ -184,5 +200,5 @@ const movingMeshes = {
   },
 };
 
-Object.assign(window, { THREE, RoomEnvironment, EffectComposer, OutputPass, Pass, createGlass, makeScene, makeRenderer, makeCamera, glassMaterial, pixelsOf, measureBall, movingMeshes });
+Object.assign(window, { THREE, RoomEnvironment, EffectComposer, OutputPass, Pass, createGlass, makeScene, makeRenderer, makeCamera, glassMaterial, pixelsOf, measureBall, traceKnot, movingMeshes });
 window.isReady = true;

@@ -4,6 +4,7 @@
 #include "core/viewer.h"
 
 #include <emscripten.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -22,6 +23,7 @@ EMSCRIPTEN_KEEPALIVE vtViewer* vtViewer_Create(int width, int height, const vtVi
 {
     vtViewer* viewer = calloc(1, sizeof *viewer);
     if (viewer != NULL) {
+        viewer->lowest = NAN;
         viewer->frame = vtDefaultFrame();
         viewer->frame.width = width;
         viewer->frame.height = height;
@@ -40,6 +42,7 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Destroy(vtViewer* viewer)
         vtDestroyRenderer(viewer->renderer);
         vtDestroyTracer(viewer->tracer);
         vtDestroyScene(&viewer->scene);
+        vtMotion_Clear(&viewer->motion);
         vtViewer_Begin(viewer);
         vtDestroyMesh(&viewer->kept.unit);
         free(viewer->image);
@@ -136,7 +139,7 @@ static bool same(vtVec3 a, vtVec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/// A ground at the scene's lowest point, or none; the rest as vtGround has it.
+/// A ground at the scene's lowest point (at rest), or none; the rest as vtGround has it.
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGround(vtViewer* viewer, bool isThere, float intensity,
                                                     float softness, bool matt, float red, float green,
                                                     float blue, float sunX, float sunY, float sunZ,
@@ -144,6 +147,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGround(vtViewer* viewer, bool isThe
                                                     float sunBlue)
 {
     vtGround ground = vtDefaultGround();
+    ground.height = viewer->lowest;
     ground.shadowIntensity = intensity;
     ground.shadowSoftness = softness;
     ground.matt = matt;
@@ -154,7 +158,8 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGround(vtViewer* viewer, bool isThe
     const vtGround* now = &viewer->renderer->ground.ground;
     if (viewer->renderer->ground.isThere == isThere &&
         (!isThere ||
-         (now->shadowIntensity == intensity && now->shadowSoftness == softness && now->matt == matt &&
+         ((now->height == ground.height || (isnan(now->height) && isnan(ground.height))) &&
+          now->shadowIntensity == intensity && now->shadowSoftness == softness && now->matt == matt &&
           same(now->color, ground.color) && same(now->sunDirection, ground.sunDirection) &&
           now->sunSize == sunSize && same(now->sunColor, ground.sunColor)))) {
         return NULL; // what falls on it is kept

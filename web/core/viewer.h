@@ -12,11 +12,24 @@ typedef struct vtKeptRelief {
     int samples; ///< asked of a pattern
 } vtKeptRelief;
 
+/// A model of a scene that has animations, and where in the scene it is.
+typedef struct vtMovingModel {
+    vtModel* model;
+    vtModelPlace place;
+} vtMovingModel;
+
+typedef struct vtMotion {
+    vtMovingModel* models;
+    uint32_t count;
+} vtMotion;
+
 typedef struct vtViewer {
     vtRenderer* renderer;
-    vtScene scene;              ///< on the GPU as well; kept for its numbers
-    vtScene next;               ///< being put together
-    vtPreparation* preparation; ///< of that; NULL: not begun
+    vtScene scene;               ///< on the GPU as well; kept for its numbers
+    vtScene next;                ///< being put together
+    vtMotion motion, nextMotion; ///< of `scene` and `next`
+    float lowest; ///< y where `scene`, if it moves, stands on a ground: at rest; NAN: wherever it is
+    vtPreparation* preparation; ///< of `next`; NULL: not begun
     vtTracer* tracer;           ///< of `scene`, with which it goes; NULL: no path was asked for
     vtKeptRelief kept;
     vtWalls walls;     ///< of files that are added
@@ -59,6 +72,12 @@ vtSceneFacts vtViewer_SceneFacts(const vtViewer* viewer);
 
 /// An object's line of text about something of that kind; empty: as it is.
 vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec);
+
+void vtMotion_Clear(vtMotion* motion);
+/// Takes a model over, whose scene is in the scene that was begun.
+vtResult vtViewer_AddMotion(vtViewer* viewer, vtModel* model, const vtModelPlace* place);
+/// Of the scene that is shown, at rest.
+float vtViewer_Lowest(const vtViewer* viewer);
 
 /// Moves what was made into the scene that was begun.
 vtResult vtViewer_Add(vtViewer* viewer, vtScene* made, const vtObjectSpec* spec);

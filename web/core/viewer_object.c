@@ -1,9 +1,12 @@
-// Objects of the scene that was begun.
+// Objects of the scene that was begun, and what of it moves.
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "core/viewer.h"
+#include "scene/objects.h"
 
 vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec)
 {
@@ -39,4 +42,47 @@ vtResult vtViewer_AddMesh(vtViewer* viewer, vtMesh* mesh, const char* name, cons
         result = vtViewer_Add(viewer, &made, spec);
     }
     return result;
+}
+
+// ------------------------------------------------------------------------------------- what moves
+
+void vtMotion_Clear(vtMotion* motion)
+{
+    for (uint32_t i = 0; i < motion->count; ++i) {
+        vtCloseModel(motion->models[i].model);
+    }
+    free(motion->models);
+    *motion = (vtMotion){0};
+}
+
+vtResult vtViewer_AddMotion(vtViewer* viewer, vtModel* model, const vtModelPlace* place)
+{
+    vtMotion* motion = &viewer->nextMotion;
+    if (vtModel_Animation(model, 0) == NULL) {
+        vtCloseModel(model);
+        return vt_ok;
+    }
+    vtMovingModel* grown = realloc(motion->models, (motion->count + 1) * sizeof *grown);
+    if (grown == NULL) {
+        vtCloseModel(model);
+        return vtFail(&viewer->error, vt_errorMemory, "animations: out of memory");
+    }
+    motion->models = grown;
+    motion->models[motion->count++] = (vtMovingModel){model, *place};
+    return vt_ok;
+}
+
+/// The scene's lowest point, of one that moves; NAN: of another, or not known.
+float vtViewer_Lowest(const vtViewer* viewer)
+{
+    float lowest = NAN;
+    vtPlacedObject* placed;
+    uint32_t glassCount;
+    if (viewer->motion.count > 0 && vtPlaceObjects(&viewer->scene, &placed, &glassCount, NULL) == vt_ok) {
+        for (uint32_t i = 0; i < viewer->scene.objectCount; ++i) {
+            lowest = fminf(lowest, placed[i].low.y); // which a NAN gives way to
+        }
+        vtFree(placed);
+    }
+    return lowest;
 }

@@ -27,6 +27,7 @@ static void endPreparation(vtViewer* viewer)
 EMSCRIPTEN_KEEPALIVE void vtViewer_Begin(vtViewer* viewer)
 {
     endPreparation(viewer);
+    vtMotion_Clear(&viewer->nextMotion);
     vtDestroyScene(&viewer->next);
 }
 
@@ -63,16 +64,24 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* by
         return vtViewer_AddRelief(viewer, bytes, size, name, text, source);
     }
     vtScene made;
+    vtModel* model;
     vtObjectSpec spec;
     const vtModelDef def = {.bytes = bytes, .size = size, .name = name, .variant = viewer->variant};
     vtResult result = vtViewer_ReadSpec(viewer, text, vt_kindMesh, &spec);
-    result = result == vt_ok ? vtLoadScene(&def, &made, &viewer->error) : result;
+    result = result == vt_ok ? vtOpenModel(&def, &model, &made, &viewer->error) : result;
     free(bytes);
     if (result != vt_ok) {
         return sentence(viewer, result);
     }
     vtScene_SetWalls(&made, viewer->walls);
-    return sentence(viewer, vtViewer_Add(viewer, &made, &spec));
+    const vtTransform transform = vtObjectSpec_Place(&spec);
+    const vtModelPlace place = vtScene_NextPlace(&viewer->next, &transform);
+    result = vtViewer_Add(viewer, &made, &spec);
+    if (result != vt_ok) {
+        vtCloseModel(model);
+        return sentence(viewer, result);
+    }
+    return sentence(viewer, vtViewer_AddMotion(viewer, model, &place));
 }
 
 /// Pictures of the scene that was begun.
@@ -138,12 +147,17 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Show(vtViewer* viewer)
         vtDestroyScene(&viewer->scene);
         viewer->scene = viewer->next;
         viewer->next = (vtScene){0};
+        vtMotion_Clear(&viewer->motion);
+        viewer->motion = viewer->nextMotion;
+        viewer->nextMotion = (vtMotion){0};
+        viewer->lowest = vtViewer_Lowest(viewer);
         if (technique == vt_techniqueHeightField) {
             viewer->frame.technique = technique;
             viewer->frame.output = vt_outputPicture; // it has no layers to show
         }
         viewer->changed = true;
     }
+    vtMotion_Clear(&viewer->nextMotion);
     vtDestroyScene(&viewer->next);
     return sentence(viewer, result);
 }

@@ -149,8 +149,11 @@ function shareOf({ min, max }, value) {
 const isLayer = (output) => output.startsWith('layer');
 
 function showOutput(output, store, page) {
-  const isElsewhere = isLayer(output) && !peels(store.state.technique);
-  store.set(isElsewhere ? { output, technique: 'layered' } : { output });
+  const { technique } = store.state;
+  const isElsewhere = isLayer(output) && !peels(technique);
+  const isBack = !isLayer(output) && page.techniqueBefore && technique === 'layered';
+  store.set({ output, technique: isElsewhere ? 'layered' : isBack ? page.techniqueBefore : technique });
+  if (isElsewhere || isBack) page.techniqueBefore = isElsewhere ? technique : null;
   if (isElsewhere) page.note('The technique is now Layered, whose layers these are');
 }
 
@@ -161,6 +164,7 @@ function fillTechniques(store, page) {
   const pictures = create('optgroup', { label: 'A stored picture', id: 'pictures' }, new Option('Ray-traced reference', 'reference'));
   element('compare').append(new Option('Nothing', 'none'), ladder, pictures);
   element('technique').addEventListener('change', ({ target: { value } }) => {
+    page.techniqueBefore = null;
     store.set({ technique: value, output: isLayer(store.state.output) && !peels(value) ? 'picture' : store.state.output });
   });
   element('compare').addEventListener('change', ({ target }) => {

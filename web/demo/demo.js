@@ -197,7 +197,9 @@ left.addEventListener('error', ({ detail }) => {
     if (!sentence.includes(id)) continue;
     sentence = sentence.replaceAll(id, name);
     note('');
-    if (detail.type === 'loadfailure') store.set(before.get(url) ?? {});
+    if (detail.type !== 'loadfailure') continue;
+    store.set(before.get(url) ?? {});
+    forgetFile(url);
   }
   element('progress').classList.add('done');
   showError(sentence);
@@ -210,6 +212,12 @@ function kindOf({ name, type }) {
   if (/\.pfm$/i.test(name)) return 'relief';
   const isPicture = type.startsWith('image/') || /\.(hdr|png|jpe?g)$/i.test(name);
   return !isPicture ? 'model' : store.state.model === 'relief' ? 'relief' : 'environment';
+}
+
+/** A file that was refused is no choice. */
+function forgetFile(url) {
+  files.delete(url);
+  for (const choice of document.querySelectorAll(`[data-url="${url}"], [value="${url}"]`)) (choice.closest('label') ?? choice).remove();
 }
 
 function openFile(file, kind = kindOf(file)) {
@@ -231,7 +239,10 @@ function openFile(file, kind = kindOf(file)) {
   note(kind === 'relief' ? `${file.name} is the relief` : `Opened ${file.name}`);
 }
 
-function comparePicture(blob, name) {
+async function comparePicture(blob, name) {
+  const isPicture = await createImageBitmap(blob).then(() => true, () => false);
+  showError(isPicture ? '' : `${name}: no picture that this browser can decode; save it as PNG, JPEG or WebP`);
+  if (!isPicture) return;
   const url = URL.createObjectURL(blob);
   files.set(url, name);
   const { model, relief, depth, slab, smooth, environment, ior, iors, roughness, dispersion, exposure, tone, orbit, target, fov } = store.state;
@@ -258,6 +269,8 @@ function listenToDrops() {
 }
 
 async function savePicture() {
+  note('Drawing the picture…');
+  await new Promise((done) => setTimeout(done, 50)); // the words are seen
   try {
     const link = document.createElement('a');
     link.href = URL.createObjectURL(await left.toBlob());

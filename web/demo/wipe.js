@@ -72,6 +72,7 @@ export class Wipe {
     const isNew = this.#viewer === null;
     if (isNew) {
       this.#viewer = document.createElement('vitrine-viewer');
+      this.#viewer.interpolationDecay = 0; // it follows
       this.#viewer.inert = true; // gestures go to the one below
     }
     dress(this.#viewer);

@@ -29,6 +29,14 @@ export function loadCore(from = {}) {
   return loading;
 }
 
+let lastTask = Promise.resolve();
+
+/** A task of its own for each who asks, so that many elements do not make their scenes in one. @returns {Promise<void>} */
+export function ownTask() {
+  lastTask = lastTask.then(() => new Promise((done) => setTimeout(done)));
+  return lastTask;
+}
+
 /** vitrine-shaders.txt, which most pages need not: once, unless that failed. @returns {Promise<number>} where it is in the core's memory */
 function loadShaders(core) {
   shaders ??= placeShaders(core, places).catch((reason) => {
@@ -253,6 +261,21 @@ export class Viewer {
   /** What of the files that are shown is left out or changed. @returns {string[]} sentences */
   get notes() {
     return this.attempt('Notes').split('\n').filter(Boolean);
+  }
+
+  /** Of the files that are shown, in their order. @returns {{name: string, duration: number, isFirst: boolean}[]} isFirst: of its file */
+  get animations() {
+    const all = [];
+    for (let place; (place = this.call('AnimationName', all.length)) !== 0;) {
+      const name = this.#core.UTF8ToString(place), duration = this.call('AnimationDuration', all.length);
+      all.push({ name, duration, isFirst: this.call('AnimationIsFirst', all.length) === 1 });
+    }
+    return all;
+  }
+
+  /** Shows an animation, '': each file's first, at a time. @returns {string} a sentence, or '' */
+  setTime({ name, seconds }) {
+    return this.attempt('SetTime', name, seconds);
   }
 
   /** Goes on with what the scene that was begun is searched by, for some milliseconds. @returns {boolean} it is whole, or cannot be */

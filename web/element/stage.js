@@ -1,7 +1,7 @@
 // A canvas with its viewer: what it shows, when it draws, and how well. Nothing is drawn unless the canvas can be
 // seen and something changed; once all rests, samples are added to the picture until it has enough.
 import { builtIn } from './loading.js';
-import { Viewer } from './core.js';
+import { Viewer, ownTask } from './core.js';
 import { listMaterials } from './materials.js';
 import { decodeTexture } from './picture.js';
 import { Motion } from './motion.js';
@@ -22,6 +22,7 @@ const stillAfter = 250; // milliseconds without motion until the full frame
  * @property {(detail: object) => void} scaled of the render-scale event
  * @property {(isByItself: boolean) => void} turned or moved
  * @property {(cause: string, sentence: string) => void} warned of something left out; '': of nothing any more
+ * @property {(animations: object[]) => void} animated of the files that are shown now (Viewer.animations)
  * @property {(sentences: string[]) => void} noted what of the files that are shown is left out or changed
  * @property {() => void} lost the context
  * @property {() => void} restored
@@ -61,6 +62,9 @@ export class Stage {
   #filled = false; // the viewer has the scene
   #visible = false;
   #spin = 0;
+  #motion = null;
+  #pose = null; // of the animation that is shown; null: the scene is at rest
+  #isPosed = true; // the viewer has it so
   #lastTime = 0;
   #lastStep = 0; // of the view's way
   #dirty = false;
@@ -103,6 +107,20 @@ export class Stage {
     this.#schedule();
   }
 
+  /** Called before each frame with its time, milliseconds, to pose what moves; null: nothing does. @param {((time: number) => void)|null} advance */
+  set motion(advance) {
+    this.#motion = advance;
+    if (advance === null) this.#awaitStill();
+    this.#schedule();
+  }
+
+  /** Of Viewer.setTime. @param {{name: string, seconds: number}} pose */
+  set pose(pose) {
+    this.#pose = pose;
+    this.#isPosed = false;
+    this.invalidate();
+  }
+
   /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source|import('./loading.js').Scene} source */
   show(kind, source) {
     if (kind === 'model') this.#coming = null;
@@ -115,6 +133,7 @@ export class Stage {
     this.scene.model = this.#coming = this.#goOn = null;
     delete this.#pending.model;
     this.close();
+    this.#host.querySelector('canvas').getContext('bitmaprenderer').transferFromImageBitmap(null);
   }
 
   invalidate() {
@@ -166,7 +185,7 @@ export class Stage {
     const canvas = this.#host.querySelector('canvas');
     if (this.#dirty || this.quality.level !== 0 || canvas.width !== width || canvas.height !== height) {
       this.#frameObject();
-      const problem = this.#applyGlass(this.glass) || this.#applyView();
+      const problem = this.#applyPose() || this.#applyGlass(this.glass) || this.#applyView();
       if (problem) throw new Error(problem);
     }
     return this.#viewer.image(width, height);
@@ -226,8 +245,12 @@ export class Stage {
           this.#told.failed(problem);
           return;
         }
-        this.#fill();
-        this.#told.restored();
+        const viewer = this.#viewer;
+        ownTask().then(() => {
+          if (this.#viewer !== viewer || viewer.isLost) return;
+          this.#fill();
+          this.#told.restored();
+        });
       },
       crowded: () => {
         if (!this.#visible) this.close();
@@ -294,6 +317,9 @@ export class Stage {
         if (!problem) {
           this.#framedFor = '';
           this.#refused &&= {};
+          if (isNew) this.#pose = null;
+          this.#isPosed = this.#pose === null; // it is at rest
+          if (isNew) this.#told.animated(viewer.animations);
           for (const [index, text] of source.changes ?? []) viewer.attempt('SetMaterial', index, `${index}:${text}`);
           if (isNew) this.#told.noted(viewer.notes);
           this.#told.warned('variant', variantProblem(source));
@@ -345,6 +371,12 @@ export class Stage {
     return viewer.setGlass({ ...glass, technique: null, lessened });
   }
 
+  #applyPose() {
+    if (this.#isPosed) return '';
+    this.#isPosed = true;
+    return this.#viewer.setTime(this.#pose);
+  }
+
   #applyView() {
     const { eye, target, fieldOfView } = this.view;
     return this.#viewer.attempt('SetView', ...eye, ...target, fieldOfView);
@@ -384,7 +416,7 @@ export class Stage {
   #awaitStill() {
     clearTimeout(this.#still);
     this.#still = setTimeout(() => {
-      if (this.#spin !== 0) return;
+      if (this.#spin !== 0 || this.#motion !== null) return;
       const before = this.quality.level;
       this.quality.moving = false;
       if (this.quality.level !== before) this.invalidate();
@@ -393,7 +425,7 @@ export class Stage {
   }
 
   #schedule() {
-    const isWanted = this.#dirty || this.#spin !== 0 || (this.#isRefining && !this.quality.moving);
+    const isWanted = this.#dirty || this.#spin !== 0 || this.#motion !== null || (this.#isRefining && !this.quality.moving);
     const canDraw = this.#viewer !== null && !this.#viewer.isLost && this.#visible && this.#filled;
     if (!isWanted || !canDraw || this.#busy !== null || this.#frame !== 0) return;
     this.#frame = requestAnimationFrame((time) => {
@@ -415,6 +447,10 @@ export class Stage {
       this.quality.moving = true;
       this.#dirty = true;
       this.#told.turned(true);
+    }
+    if (this.#motion !== null) {
+      this.#motion(time);
+      this.quality.moving = true;
     }
     const { quality } = this;
     const isNew = this.#dirty;
@@ -458,7 +494,7 @@ export class Stage {
   /** A new frame of that size. @returns {string} a sentence, or '' */
   #prepare(width, height) {
     this.#frameObject();
-    const problem = this.#applyGlass(this.glass, this.quality.lessened) || this.#applyView();
+    const problem = this.#applyPose() || this.#applyGlass(this.glass, this.quality.lessened) || this.#applyView();
     const { pixelWidth, pixelHeight } = this.#drawn;
     return problem || (pixelWidth === width && pixelHeight === height ? '' : this.#viewer.attempt('Resize', width, height));
   }

@@ -2,7 +2,8 @@
 import { Access } from './access.js';
 import { adoptProperties, attributes, defineProperties, readAttributes } from './attributes.js';
 import { listenToControls } from './controls.js';
-import { coreStatistics, loadCore } from './core.js';
+import { coreStatistics, loadCore, ownTask } from './core.js';
+import { Extras } from './extras.js';
 import { readGround } from './ground.js';
 import { Loader } from './loader.js';
 import { readBackground, wishOf } from './loading.js';
@@ -20,6 +21,7 @@ const cameraWords = ['camera-orbit', 'camera-target', 'field-of-view', 'min-came
  * @fires error {type: 'loadfailure'|'webglcontextlost'|'unsupported'|'invalid', sourceError}
  * @fires camera-change {source: 'user-interaction'|'none'}
  * @fires warning {sentences}: what of the files is left out or changed
+ * @fires play, pause, loop: an animation
  * @fires frame {milliseconds}: one is on the screen, and how long it took
  * @fires render-scale {reportedDpr, renderedDpr, minimumDpr, pixelWidth, pixelHeight, preset, layers, steps, maxEvents, branches, wavelengths, reason}
  */
@@ -46,8 +48,9 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     failed: (kind, reason) => this.#fail('loadfailure', kind, reason.message, reason),
   });
   #source = 'none'; // of the last motion
-  #hotspots = null; // promise of them
-  #prompt = null; // 'waiting', it, or 'seen'
+  #extras = new Extras(this, this.#stage, { say: (...values) => this.#say(...values), failed: (...values) => this.#fail('loadfailure', ...values) });
+  #animation = null; // animation.js's, once files have some
+  #isAnimating = false; // it is being loaded
   #isLoaded = false;
   #warnings = [];
   #hasFrame = false;
@@ -94,6 +97,38 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   /** Names of the variants of materials that the files shown have, for variant-name. */
   get availableVariants() {
     return [...new Set(this.#stage.scene.model?.parts.flatMap(({ variants }) => variants ?? []))];
+  }
+
+  /** Names of the animations that the files shown have, for animation-name. */
+  get availableAnimations() {
+    return this.#animation?.names ?? [];
+  }
+
+  /** Seconds of the animation that is played; 0 without any. */
+  get duration() {
+    return this.#animation?.duration ?? 0;
+  }
+
+  get paused() {
+    return this.#animation?.paused ?? true;
+  }
+
+  /** Of the animation, seconds; setting it shows that time. */
+  get currentTime() {
+    return this.#animation?.currentTime ?? 0;
+  }
+
+  set currentTime(seconds) {
+    if (this.#animation !== null) this.#animation.currentTime = seconds;
+  }
+
+  /** Plays the animation of animation-name, round and round, while the element is in view. */
+  play() {
+    this.#animation?.play();
+  }
+
+  pause() {
+    this.#animation?.pause();
   }
 
   /** The poster is gone and the model can be seen. */
@@ -206,11 +241,14 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const size = new ResizeObserver(() => this.#stage.invalidate());
     seen.observe(this);
     size.observe(this);
-    const motion = () => this.#update('');
+    const motion = () => {
+      this.#update('');
+      this.#updateAnimation();
+    };
     this.#reduced.addEventListener('change', motion);
-    const children = new MutationObserver(() => this.#placeHotspots());
+    const children = new MutationObserver(() => this.#extras.placeHotspots());
     children.observe(this, { childList: true, subtree: true, attributeFilter: ['slot', 'data-position', 'data-normal'] });
-    this.#placeHotspots();
+    this.#extras.placeHotspots();
     this.#observers = [seen, size, { disconnect: () => this.#reduced.removeEventListener('change', motion) }, children];
     this.#watchPixelRatio();
     this.#update('src');
@@ -234,7 +272,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     this.#loader.abort();
     this.#stage.isVisible = false;
     this.#stage.close();
-    if (this.#prompt !== null) this.#endPrompt();
+    this.#extras.stop();
     this.#showPoster();
   }
 
@@ -306,6 +344,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     this.#say('invalid', sentence);
     if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
     this.#updateSpin();
+    this.#updateAnimation();
     stage.invalidate();
     if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
   }
@@ -330,6 +369,27 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     this.#stage.spin = this.#values.autoRotate && !this.#reduced.matches && !this.#timers.pause ? spinSpeed : 0;
   }
 
+  #updateAnimation() {
+    if (this.#animation !== null) this.#say('animation', this.#animation.update(this.#values, this.#reduced.matches));
+  }
+
+  /** The files shown are others. */
+  async #animate(animations) {
+    if (animations.length > 0 && this.#animation === null) {
+      this.#isAnimating = true;
+      try {
+        const { Animation } = await import('./animation.js');
+        this.#animation ??= new Animation(this.#stage, (type) => this.#dispatch(type));
+      } catch (reason) {
+        this.#fail('loadfailure', 'animation', `The animations cannot be played: ${reason.message}`, reason);
+      }
+      this.#isAnimating = false;
+      this.#stage.invalidate();
+    }
+    this.#animation?.reset(animations);
+    this.#updateAnimation();
+  }
+
   // --------------------------------------------------------------------------------------------------- loading
 
   async #load() {
@@ -342,6 +402,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     if (model.url === '') {
       this.#isLoaded = this.#hasFrame = false;
       this.#stage.dropModel();
+      this.#animate([]);
       this.#showPoster();
     }
     if (scene.model?.url !== model.url) this.#isLoaded = false;
@@ -349,7 +410,9 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
     if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, scene))) return;
     try {
-      this.#stage.core = await core;
+      const loaded = await core;
+      await ownTask();
+      this.#stage.core = loaded;
     } catch (reason) {
       this.#fail('loadfailure', 'model', `The renderer cannot be loaded: ${reason.message}`, reason);
     }
@@ -386,6 +449,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
       },
       rejected: (kind, sentence) => this.#fail('loadfailure', kind, sentence),
       warned: (cause, sentence) => (sentence ? this.#fail('invalid', cause, sentence) : this.#say(cause, '')),
+      animated: (animations) => this.#animate(animations),
       noted: (sentences) => {
         this.#warnings = sentences;
         if (sentences.length > 0) this.#dispatch('warning', { sentences });
@@ -400,50 +464,14 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     };
   }
 
-  async #placeHotspots() {
-    if (!this.querySelector(':scope > [slot^=hotspot]') && this.#hotspots === null) return;
-    this.#hotspots ??= import('./hotspots.js').then(({ Hotspots }) => new Hotspots(this), (reason) => {
-      const sentence = this.#lacksModule('hotspots', reason);
-      return { place: () => [sentence] };
-    });
-    this.#say('hotspots', (await this.#hotspots).place(this.#stage.view).join('. '));
-  }
-
-  #lacksModule(name, reason) {
-    const sentence = `element/${name}.js cannot be loaded (${reason.message}); serve it with the element`;
-    this.#fail('loadfailure', name, sentence, reason);
-    return sentence;
-  }
-
-  /** After a while that nobody has touched it. */
-  #awaitPrompt() {
-    const { interactionPrompt, cameraControls, interactionPromptThreshold } = this.#values;
-    if (interactionPrompt !== 'auto' || !cameraControls || this.#prompt !== null) return;
-    this.#prompt = 'waiting';
-    this.#timers.prompt = setTimeout(async () => {
-      const { Prompt } = await import('./prompt.js').catch((reason) => this.#lacksModule('prompt', reason));
-      if (!Prompt || this.#prompt !== 'waiting') return;
-      this.#prompt = new Prompt(this.shadowRoot, !this.#reduced.matches, (right) => {
-        this.#stage.orbit.turn(right, 0);
-        this.#stage.moved();
-      });
-    }, interactionPromptThreshold);
-  }
-
-  #endPrompt() {
-    clearTimeout(this.#timers.prompt);
-    this.#prompt?.stop?.();
-    this.#prompt = 'seen';
-  }
-
   #onFrame(milliseconds) {
     this.#hasFrame = true;
-    if (this.#hotspots !== null) this.#placeHotspots();
+    this.#extras.placeHotspots();
     this.#showPoster();
     this.#dispatch('frame', { milliseconds });
-    if (this.#isLoaded || this.#stage.scene.model?.url !== this.#wish.url) return;
+    if (this.#isLoaded || this.#isAnimating || this.#stage.scene.model?.url !== this.#wish.url) return;
     this.#isLoaded = true;
-    this.#awaitPrompt();
+    this.#extras.awaitPrompt(this.#values, !this.#reduced.matches);
     this.#loader.progress?.advance(1);
     this.#access.follow();
     this.#dispatch('load', { url: this.#values.relief || this.#values.src });
@@ -452,7 +480,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   #moved(source) {
     this.#source = source;
     if (source === 'user-interaction') {
-      this.#endPrompt();
+      this.#extras.endPrompt();
       clearTimeout(this.#timers.pause);
       this.#timers.pause = setTimeout(() => {
         this.#timers.pause = 0;

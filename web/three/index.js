@@ -13,7 +13,7 @@ const buildTime = 8; // milliseconds a frame, for geometry that is new
 /** Why a renderer cannot be used; ''. */
 function problemOf(renderer) {
   if (renderer?.isWebGPURenderer) return 'WebGPURenderer has no WebGL 2 context to draw into; use WebGLRenderer';
-  if (!renderer?.isWebGLRenderer) return "a WebGLRenderer of three.js's is needed, 0.163 or newer";
+  if (!renderer?.isWebGLRenderer) return "a WebGLRenderer of three.js's is needed";
   if (renderer.getContext().isContextLost()) return 'the context of the renderer is lost; call it again once it is restored';
   const name = ['logarithmicDepthBuffer', 'reversedDepthBuffer'].find((one) => renderer.capabilities[one]);
   return name ? `the renderer has a ${name}, along which no ray can be followed; create it without` : '';
@@ -107,6 +107,7 @@ class Glass {
     if (this.#isDisposed) throw new Error('glass.render: it was disposed; createGlass makes a new one');
     const renderer = this.#renderer;
     const target = renderer.getRenderTarget(), face = renderer.getActiveCubeFace(), level = renderer.getActiveMipmapLevel();
+    renderer.setRenderTarget(target, face, level); // before three.js's first picture there is no viewport
     renderer.getCurrentViewport(this.#viewport);
     let isDrawn = false;
     this.#isWaiting = false;

@@ -37,8 +37,7 @@ export class Output {
     this.opaque = makeTarget(0);
     this.glass = makeTarget(0);
     const uniforms = { scene: {}, sceneDepth: {}, glass: { value: this.glass.texture }, glassDepth: { value: this.glass.depthTexture } };
-    const blending = { blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor, premultipliedAlpha: true };
-    this.#screen = new Screen({ name: 'VitrineOutput', uniforms, fragmentShader, ...blending });
+    this.#screen = new Screen({ uniforms, fragmentShader, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor });
   }
 
   /** @param {number} samples of what three.js draws, a pixel @param {boolean} needsLevels from now on that has levels */

@@ -38,7 +38,8 @@ static vtVec3 passedBy(const vtShadeRays* rays, const vtPlace* place, vtVec3 L)
     const float eta = surface->object->thin ? own : indexOf(rays, after) / indexOf(rays, before);
     const float ior = fmaxf(eta, 1.0f / eta);
     const vtSurfaceHit* hit = surface->hit;
-    const vtLook look = vtLookAt(rays->reference->scene, surface->object, hit->triangle, hit->u, hit->v, ior, -1.0f);
+    const vtLook look =
+        vtLookAt(rays->reference->scene, surface->object, hit->triangle, hit->u, hit->v, ior, -1.0f);
     vtVec3 through = all;
     if (surface->object->thin || before != after) {
         const float cosine = fabsf(vtDot(look.N, L));

@@ -138,7 +138,8 @@ static void roughGlassSeesLevels(void** state)
     destroyHost(&host);
 }
 
-/// A ball turns the picture round: light at its right comes from the left of the wall, behind a post before the ball.
+/// A ball turns the picture round: light at its right comes from the left of the wall, behind a post before
+/// the ball.
 static void raysGoOnBeyondWhatTheyPassBehind(void** state)
 {
     Fixture* fixture = *state;
@@ -190,7 +191,7 @@ static void whatIsOpaqueCanBeTheHosts(void** state)
     createHost(fixture, &host);
     setEnvironment(fixture->renderer, "studio");
     for (int i = 0; i < 4; ++i) {
-        setPaneBeforeThing(fixture, i != 3); // shaded by looks.glsl, or by shading.glsl
+        setPaneBeforeThing(fixture, i != 3);         // shaded by looks.glsl, or by shading.glsl
         fillPicture(&host, 2.0f, i == 2 ? side : 0); // the wall is hidden by what fills the picture
         vtFrame frame = frameOver(&host);
         frame.hostOpaque = i > 0;
