@@ -21,9 +21,9 @@ const decoderFiles = [...decoders.map((name) => `element/${name}.js`), 'element/
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
-for (const name of ['vitrine-core.wasm', 'vitrine-three.wasm', 'vitrine-shaders.txt']) cpSync(join(web, name), join(folder, name));
+for (const name of ['vitrine-core.wasm', 'vitrine-full.wasm', 'vitrine-three.wasm', 'vitrine-shaders.txt']) cpSync(join(web, name), join(folder, name));
 const small = { format: 'esm', minify: true, target: 'es2022', logLevel: 'warning' };
-for (const name of ['vitrine-core.js', 'vitrine-three.js']) await build({ ...small, entryPoints: [join(web, name)], outdir: folder });
+for (const name of ['vitrine-core.js', 'vitrine-full.js', 'vitrine-three.js']) await build({ ...small, entryPoints: [join(web, name)], outdir: folder });
 const { attributes, types, frameworkTypes, manifest } = await describeElement(join(web, 'element/attributes.js'));
 
 /** Leaves out what the attributes are, in words: only the documentation reads it. */
@@ -42,7 +42,7 @@ await build({
   ...small,
   entryPoints: [join(web, 'element/vitrine-viewer.js')],
   bundle: true,
-  external: ['../vitrine-core.js', ...[...decoders, ...extras].map((name) => `./${name}.js`)],
+  external: ['../vitrine-core.js', '../vitrine-full.js', ...[...decoders, ...extras].map((name) => `./${name}.js`)],
   plugins: [withoutDescriptions],
   sourcemap: true,
   outdir: join(folder, 'element'),
@@ -72,10 +72,13 @@ writeFileSync(join(folder, 'NOTICES.txt'), readFileSync(join(web, 'NOTICES.txt')
 
 const decodersBeside = {
   name: 'decoders beside',
-  setup: ({ onResolve }) => onResolve({ filter: new RegExp(`/(${decoders.join('|')})\\.js$`) }, ({ path }) => ({ path: `./element/${basename(path)}`, external: true })),
+  setup({ onResolve }) {
+    onResolve({ filter: new RegExp(`/(${decoders.join('|')})\\.js$`) }, ({ path }) => ({ path: `./element/${basename(path)}`, external: true }));
+    onResolve({ filter: /\/vitrine-full\.js$/ }, () => ({ path: './vitrine-full.js', external: true }));
+  },
 };
 
-// One file with everything in it, vitrine-shaders.txt too, but decoders, for a <script type="module"> from anywhere.
+// One file with everything in it, vitrine-shaders.txt too, but decoders and the larger core, for a <script type="module"> from anywhere.
 await build({
   stdin: {
     contents: `import wasm from './vitrine-core.wasm';
@@ -109,6 +112,7 @@ writeFileSync(
         './three': { types: './three/index.d.ts', default: './three/index.js' },
         './fiber': { types: './three/fiber.d.ts', default: './three/fiber.js' },
         './vitrine-core.wasm': './vitrine-core.wasm',
+        './vitrine-full.wasm': './vitrine-full.wasm',
         './vitrine-three.wasm': './vitrine-three.wasm',
         './vitrine-shaders.txt': './vitrine-shaders.txt',
         './custom-elements.json': './custom-elements.json',
@@ -118,7 +122,7 @@ writeFileSync(
       sideEffects: ['./element/vitrine-viewer.js', './vitrine-viewer.bundle.js'],
       peerDependencies: { '@react-three/fiber': '>=8', react: '>=18', three: '>=0.180' },
       peerDependenciesMeta: Object.fromEntries(['@react-three/fiber', 'react', 'three'].map((name) => [name, { optional: true }])),
-      files: ['element', 'three', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-three.js', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', '*.d.ts', 'custom-elements.json', 'NOTICES.txt'],
+      files: ['element', 'three', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-full.js', 'vitrine-full.wasm', 'vitrine-three.js', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', '*.d.ts', 'custom-elements.json', 'NOTICES.txt'],
       customElements: 'custom-elements.json',
       keywords: ['glass', 'refraction', 'webgl', 'wasm', 'gltf', 'custom-element', 'web-components'],
     },
@@ -139,6 +143,8 @@ const weigh = (name, when = '') => {
 };
 const sum = loaded.reduce((bytes, name) => bytes + weigh(name), 0);
 console.log(`  all that the element loads: ${(sum / 1000).toFixed(1)} KB gzip`);
+const whole = ['vitrine-full.wasm', 'vitrine-full.js'].reduce((bytes, name) => bytes + weigh(name, ', in place of vitrine-core with a ground or animations'), 0);
+console.log(`  all that such an element loads: ${((sum + whole - loaded.slice(0, 2).reduce((bytes, name) => bytes + gzipSync(readFileSync(join(folder, name)), { level: 9 }).length, 0)) / 1000).toFixed(1)} KB gzip`);
 const ofThree = ['vitrine-three.wasm', 'vitrine-three.js', 'three/index.js'].reduce((bytes, name) => bytes + weigh(name, ', of vitrine-viewer/three'), 0);
 console.log(`  all that vitrine-viewer/three loads: ${(ofThree / 1000).toFixed(1)} KB gzip`);
 weigh('vitrine-shaders.txt', ', loaded once a picture needs it');

@@ -86,7 +86,7 @@ describe('words', () => {
   test('the table of settings has a row for every field of vtFrame', () => {
     const rows = JSON.parse(vitrine(['list', '--settings']).text);
     // Where a picture goes, and a host's view and picture: only for embedding.
-    const others = ['framebuffer', 'x', 'y', 'linear', 'viewMatrix', 'projectionMatrix', 'overlay', 'hostColor', 'hostDepth', 'hostLinear',
+    const others = ['framebuffer', 'x', 'y', 'linear', 'viewMatrix', 'projectionMatrix', 'overlay', 'hostColor', 'hostDepth', 'hostLinear', 'hostLevels', 'hostOpaque',
       'stageDone', 'stageData'];
     const wanted = fieldsOf('vtFrame').filter((field) => !others.includes(field)).flatMap((field) => (field === 'view' ? fieldsOf('vtView').map((part) => `view.${part}`) : [field]));
     assert.deepEqual(rows.map(({ field }) => field), wanted);

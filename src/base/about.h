@@ -25,3 +25,12 @@
 #define VT_WITH_HOST 0
 #endif
 #endif
+
+/// A ground, and files that are animated: a page loads another core once it needs one of them, which says 1.
+#ifndef VT_IS_FULL
+#ifndef __EMSCRIPTEN__
+#define VT_IS_FULL 1
+#else
+#define VT_IS_FULL 0
+#endif
+#endif

@@ -3,6 +3,7 @@
 // trace. Each pass reads the targets of those before it and writes its own.
 #include <string.h>
 
+#include "base/about.h"
 #include "image/image.h"
 #include "render/renderer.h"
 #include "technique/technique.h"
@@ -48,7 +49,7 @@ vtBehind vtRenderer_Behind(const vtRenderer* renderer, const vtFrame* frame)
 
 bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame)
 {
-    return renderer->ground.isThere && vtTechnique_Row(frame->technique)->traces;
+    return VT_IS_FULL && renderer->ground.isThere && vtTechnique_Row(frame->technique)->traces;
 }
 
 /// The variant of the trace pass.

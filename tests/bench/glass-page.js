@@ -121,8 +121,10 @@ class VitrineContestant {
 
   /** Adds the samples that are missing. */
   async refine() {
-    for (let drawn = 1; drawn !== 0; drawn = this.viewer.call('Tick')) {
+    const { size } = this.shared;
+    for (let drawn = 1; drawn !== 0; drawn = this.viewer.draw(size, size)) {
       if (drawn < 0) throw new Error(this.viewer.problem());
+      if (drawn === 1) this.viewer.showOn(this.canvas);
       if (drawn === 2) await new Promise((done) => setTimeout(done, 5));
     }
   }
@@ -159,11 +161,11 @@ async function makePeer(name) {
 }
 
 window.bench = {
-  /** Loads what all share. @returns what the report says about it */
-  async open() {
+  /** Loads what all share; hasGround: something is to stand on one. @returns what the report says about it */
+  async open(hasGround = false) {
     const [mesh, environment, model, hdr, directions, core] = await Promise.all([
       loadGeometry('/model.glb'), new HDRLoader().loadAsync('/environment.hdr'), fetchBytes('/model.glb'),
-      fetchBytes('/environment.hdr'), fetchBytes('/directions.hdr'), loadCore({ locateFile: (name) => `/${name}` }),
+      fetchBytes('/environment.hdr'), fetchBytes('/directions.hdr'), loadCore({ locateFile: (name) => `/${name}` }, hasGround),
     ]);
     environment.mapping = THREE.EquirectangularReflectionMapping;
     shared = { core, environment, geometry: mesh.geometry,

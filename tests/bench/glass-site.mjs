@@ -71,7 +71,7 @@ export async function openSite({ out, model, environment, gl, peers }) {
   writeFileSync(join(out, 'site/directions.hdr'), directionsHdr());
   const server = await serveWith(join(out, 'site'), {
     '/': join(out, 'site/index.html'), '/model.glb': model, '/environment.hdr': environment,
-    '/vitrine-core.wasm': join(web, 'vitrine-core.wasm'), '/vitrine-shaders.txt': join(web, 'vitrine-shaders.txt'),
+    '/vitrine-core.wasm': join(web, 'vitrine-core.wasm'), '/vitrine-full.wasm': join(web, 'vitrine-full.wasm'), '/vitrine-shaders.txt': join(web, 'vitrine-shaders.txt'),
   });
   const variables = { ...process.env };
   if (gl === 'llvmpipe') variables.LIBGL_ALWAYS_SOFTWARE = '1';

@@ -134,6 +134,7 @@ EMSCRIPTEN_KEEPALIVE void vtViewer_Set(vtViewer* viewer, const char* name, doubl
     vtSetting_Set(vtFindSetting(name), &viewer->wanted, value);
 }
 
+#if VT_IS_FULL
 static bool same(vtVec3 a, vtVec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
@@ -167,6 +168,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetGround(vtViewer* viewer, bool isThe
     viewer->changed = true;
     return sentence(viewer, vtRenderer_SetGround(viewer->renderer, isThere ? &ground : NULL, &viewer->error));
 }
+#endif
 
 /// Draws with what vtViewer_Set was told and a technique by its id, empty: the scene decides. A layer beyond
 /// those there are is the last one. With `lessened` it is drawn with no more than preset low asks for.

@@ -1,6 +1,7 @@
 // A renderer with its scene and the frame to draw next: the part of a web page that is written in C.
 #pragma once
 
+#include "base/about.h"
 #include "scene/object_spec.h"
 #include "vitrine.h"
 

@@ -4,6 +4,8 @@
 
 #include "core/viewer.h"
 
+#if VT_IS_FULL
+
 /// By numbers from 0, of all files that are shown; NULL past the end. *own: its number in its file.
 static const vtAnimation* find(const vtViewer* viewer, int index, int* own)
 {
@@ -77,3 +79,5 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetTime(vtViewer* viewer, const char* 
     viewer->changed = true;
     return result == vt_ok ? NULL : viewer->error.message;
 }
+
+#endif

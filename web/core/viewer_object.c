@@ -48,7 +48,7 @@ vtResult vtViewer_AddMesh(vtViewer* viewer, vtMesh* mesh, const char* name, cons
 
 void vtMotion_Clear(vtMotion* motion)
 {
-    for (uint32_t i = 0; i < motion->count; ++i) {
+    for (uint32_t i = 0; VT_IS_FULL && i < motion->count; ++i) {
         vtCloseModel(motion->models[i].model);
     }
     free(motion->models);
@@ -58,7 +58,7 @@ void vtMotion_Clear(vtMotion* motion)
 vtResult vtViewer_AddMotion(vtViewer* viewer, vtModel* model, const vtModelPlace* place)
 {
     vtMotion* motion = &viewer->nextMotion;
-    if (vtModel_Animation(model, 0) == NULL) {
+    if (!VT_IS_FULL || vtModel_Animation(model, 0) == NULL) {
         vtCloseModel(model);
         return vt_ok;
     }

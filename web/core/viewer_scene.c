@@ -64,11 +64,14 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* by
         return vtViewer_AddRelief(viewer, bytes, size, name, text, source);
     }
     vtScene made;
-    vtModel* model;
+    vtModel* model = NULL;
     vtObjectSpec spec;
     const vtModelDef def = {.bytes = bytes, .size = size, .name = name, .variant = viewer->variant};
     vtResult result = vtViewer_ReadSpec(viewer, text, vt_kindMesh, &spec);
-    result = result == vt_ok ? vtOpenModel(&def, &model, &made, &viewer->error) : result;
+    if (result == vt_ok) {
+        result = VT_IS_FULL ? vtOpenModel(&def, &model, &made, &viewer->error)
+                            : vtLoadScene(&def, &made, &viewer->error);
+    }
     free(bytes);
     if (result != vt_ok) {
         return sentence(viewer, result);

@@ -1,4 +1,5 @@
-// The compiled module, loaded once a page, and one Viewer (web/core/viewer.c) for each element.
+// The compiled modules, each loaded once a page: vitrine-core, and vitrine-full for elements that need a ground or
+// animations; and one Viewer (web/core/viewer.c) for each element.
 import createVitrine from '../vitrine-core.js';
 import { attributes } from './attributes.js';
 import { placeShaders } from './later-shaders.js';
@@ -8,25 +9,38 @@ import { openInCore, placePicture } from './picture.js';
 /** Elements out of view keep what they have on the GPU until all hold more than that, bytes. */
 const mostBytes = 2 ** 27;
 
-let context = null; // of all viewers; null: there are none
+const contexts = new Map(); // of all viewers, by their module; only those that there are viewers of
 const numbers = new WeakMap(); // of a part's contents, by which the core knows them again
 let lastNumber = 0;
-let loading = null;
+const loading = new Map(); // promises of the modules, by isFull
 let places = {}; // of the last loadCore
-let shaders = null; // promise of where they are in the core's memory
+const shaders = new Map(); // promises of where they are in a module's memory
+
+/** What the map has for that key, else what `make` promises; a promise that fails is forgotten, and made anew by the next call. */
+function remember(map, key, make) {
+  if (!map.has(key)) {
+    map.set(key, make().catch((reason) => {
+      map.delete(key);
+      throw reason;
+    }));
+  }
+  return map.get(key);
+}
+
+async function loadFull(locateFile) {
+  const { default: create } = await import('../vitrine-full.js');
+  return create(locateFile ? { locateFile } : {});
+}
 
 /**
  * The module. A load that failed is tried again by the next call.
- * @param {{locateFile?: (name: string) => string, wasmBinary?: BufferSource, laterShaders?: string}} from where the wasm and the shaders are, if not beside this
+ * @param {{locateFile?: (name: string) => string, wasmBinary?: BufferSource, laterShaders?: string}} from where the wasm and the shaders are, if not beside this; wasmBinary is vitrine-core.wasm's
+ * @param {boolean} isFull with a ground and animations
  */
-export function loadCore(from = {}) {
+export function loadCore(from = {}, isFull = false) {
   const { locateFile, wasmBinary } = (places = from);
   const wasm = () => new URL('../vitrine-core.wasm', import.meta.url).href;
-  loading ??= createVitrine({ locateFile: (name) => locateFile?.(name) ?? wasm(), wasmBinary }).catch((reason) => {
-    loading = null;
-    throw reason;
-  });
-  return loading;
+  return remember(loading, isFull, () => (isFull ? loadFull(locateFile) : createVitrine({ locateFile: (name) => locateFile?.(name) ?? wasm(), wasmBinary })));
 }
 
 let lastTask = Promise.resolve();
@@ -39,20 +53,17 @@ export function ownTask() {
 
 /** vitrine-shaders.txt, which most pages need not: once, unless that failed. @returns {Promise<number>} where it is in the core's memory */
 function loadShaders(core) {
-  shaders ??= placeShaders(core, places).catch((reason) => {
-    shaders = null;
-    throw reason;
-  });
-  return shaders;
+  return remember(shaders, core, () => placeShaders(core, places));
 }
 
 /** What is held at present, for measurements, what of the files that are shown is left out or changed, and how the elements are drawn that move in less than full quality. */
 export async function coreStatistics() {
-  const core = await loading;
-  const viewers = [...(context?.drawers ?? [])].filter(({ isLost }) => !isLost);
+  const cores = await Promise.all(loading.values());
+  const viewers = [...contexts.values()].flatMap(({ drawers }) => [...drawers]).filter(({ isLost }) => !isLost);
+  const heapBytes = cores.reduce((sum, { HEAPU8 }) => sum + HEAPU8.length, 0);
   const gpuBytes = viewers.reduce((sum, { bytes }) => sum + bytes, 0);
   const lessened = viewers.flatMap((viewer) => viewer.lessened ?? []);
-  return { contexts: context === null ? 0 : 1, viewers: viewers.length, gpuBytes, heapBytes: core?.HEAPU8.length ?? 0, warnings: viewers.flatMap(({ notes }) => notes), lessened };
+  return { contexts: contexts.size, viewers: viewers.length, gpuBytes, heapBytes, warnings: viewers.flatMap(({ notes }) => notes), lessened };
 }
 
 const { values: wallsNames } = attributes.find(({ attribute }) => attribute === 'walls'); // in the order of vtWalls
@@ -60,7 +71,7 @@ const noGround = Array(14).fill(0); // of vtViewer_SetGround
 const workAtOnce = 20000; // triangles looked at: a few milliseconds
 
 /** Those out of view that were seen longest ago give back what they have, until all hold no more than they may. */
-function makeRoom(newest) {
+function makeRoom(context, newest) {
   const sizes = [...context.drawers].filter((viewer) => viewer !== newest).map((viewer) => [viewer, viewer.bytes]);
   let sum = sizes.reduce((total, [, bytes]) => total + bytes, 0);
   for (const [viewer, bytes] of sizes) {
@@ -88,11 +99,12 @@ export class Viewer {
   constructor(core, told) {
     this.told = told;
     this.#core = core;
-    this.#context = context ??= new Context(core);
+    if (!contexts.has(core)) contexts.set(core, new Context(core));
+    const context = (this.#context = contexts.get(core));
     try {
       if (context.isLost) context.renew();
       context.drawers.add(this);
-      makeRoom(this);
+      makeRoom(context, this);
       this.#start();
     } catch (reason) {
       this.destroy();
@@ -158,7 +170,7 @@ export class Viewer {
     this.#context.leave(this);
     if (this.#context.drawers.size > 0) return;
     this.#context.destroy();
-    context = null;
+    contexts.delete(this.#core);
   }
 
   /** As Context.enter: `act` may draw then, until `leave`. */
@@ -192,6 +204,11 @@ export class Viewer {
     return this.#core.ccall(`vtViewer_${name}`, 'number', ['number', ...types], [this.#viewer, ...values]);
   }
 
+  /** Is it vitrine-full's, with all calls? */
+  get isFull() {
+    return '_vtViewer_SetGround' in this.#core;
+  }
+
   /** A call that answers with a sentence, or nothing; returns that sentence or ''. */
   attempt(name, ...values) {
     return this.#core.UTF8ToString(this.call(name, ...values));
@@ -207,7 +224,7 @@ export class Viewer {
       this.call('Set', name, words ? words.indexOf(value) : Number(value));
     }
     this.call('SetBackground', kind, ...color);
-    return this.attempt('SetGround', ...ground) || this.attempt('SetGlass', technique ?? '', Number(lessened));
+    return (this.isFull && this.attempt('SetGround', ...ground)) || this.attempt('SetGlass', technique ?? '', Number(lessened));
   }
 
   /** As attempt, for a call that takes the contents of a file over. @param {import('./loading.js').Source} source */
@@ -266,6 +283,7 @@ export class Viewer {
   /** Of the files that are shown, in their order. @returns {{name: string, duration: number, isFirst: boolean}[]} isFirst: of its file */
   get animations() {
     const all = [];
+    if (!this.isFull) return all;
     for (let place; (place = this.call('AnimationName', all.length)) !== 0;) {
       const name = this.#core.UTF8ToString(place), duration = this.call('AnimationDuration', all.length);
       all.push({ name, duration, isFirst: this.call('AnimationIsFirst', all.length) === 1 });
@@ -297,7 +315,7 @@ export class Viewer {
     if (this.isLost) return;
     const problem = this.attempt('SetShaders', place);
     if (!problem) return;
-    shaders = null;
+    shaders.delete(this.#core);
     throw new Error(problem);
   }
 

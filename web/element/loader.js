@@ -81,8 +81,8 @@ export class Loader {
 
   /** A model becomes one file that the core reads. */
   async #openModel(source, signal) {
-    const { isPacked, variants } = lookInto(source.contents);
-    source.variants = variants;
+    const { isPacked, ...known } = lookInto(source.contents);
+    Object.assign(source, known);
     if (!isPacked) return;
     const { unpack } = await import('./unpack.js').catch((reason) => {
       throw new Error(`${source.name}: it is packed, or in several files, and element/unpack.js cannot be loaded (${reason.message}); serve it with the element`, { cause: reason });

@@ -10,6 +10,7 @@ import { environments, patterns, shapes } from './attributes.js';
  * @property {string} [spec] of a part: name and keys as in the attribute `objects`; '': as it is
  * @property {'model'|'relief'} [kind] of a part
  * @property {string[]} [variants] of a file's materials, names
+ * @property {boolean} [isAnimated] the file has animations
  */
 
 /**
@@ -135,7 +136,7 @@ export function urlBeside(model, uri, what) {
 /**
  * What has to be known of a model before the core reads it.
  * @param {Uint8Array} bytes .glb or .gltf
- * @returns {{isPacked: boolean, variants: string[]}} isPacked: in several files, or geometry is packed, which unpack.js mends
+ * @returns {{isPacked: boolean, isAnimated: boolean, variants: string[]}} isPacked: in several files, or geometry is packed, which unpack.js mends
  */
 export function lookInto(bytes) {
   const isBinary = bytes[0] === 0x67 && bytes.length > 20;
@@ -145,7 +146,7 @@ export function lookInto(bytes) {
   try {
     if (/"KHR_materials_variants"/.test(text)) variants = JSON.parse(text).extensions.KHR_materials_variants.variants.map(({ name }) => String(name));
   } catch {} // the core says what is wrong
-  return { isPacked, variants };
+  return { isPacked, isAnimated: /"animations"\s*:/.test(text), variants };
 }
 
 /** One number from 0 to 1 for all files of a load; it never goes back. */

@@ -37,6 +37,11 @@ function variantProblem({ variantName = '', parts }) {
   return `variant-name is '${variantName}'; ${names.length > 0 ? `the files have ${names.map((name) => `'${name}'`).join(', ')}` : 'the files have none; leave it away'}`;
 }
 
+/** @param {import('./loading.js').Scene|import('./loading.js').Source|null|undefined} source */
+function isAnimated(source) {
+  return source?.parts?.some((part) => part.isAnimated) ?? false;
+}
+
 export class Stage {
   /** Where the camera shall be. */
   orbit = new Orbit();
@@ -84,9 +89,16 @@ export class Stage {
     this.#told = told;
   }
 
+  /** Another one in the place of one that is in use takes over what is shown. */
   set core(core) {
+    if (this.#core !== core) this.close();
     this.#core = core;
     if (this.#visible) this.#beSeen();
+  }
+
+  /** Is there an animation in a file that is shown, or is about to be? */
+  get isAnimated() {
+    return isAnimated(this.scene.model) || isAnimated(this.#pending.model);
   }
 
   get isVisible() {
@@ -124,7 +136,7 @@ export class Stage {
   /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source|import('./loading.js').Scene} source */
   show(kind, source) {
     if (kind === 'model') this.#coming = null;
-    if (this.#viewer === null || this.#viewer.isLost) this.#pending[kind] = source;
+    if (this.#viewer === null || this.#viewer.isLost || (isAnimated(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
     else this.#upload(kind, source);
   }
 
@@ -430,9 +442,9 @@ export class Stage {
     if (!isWanted || !canDraw || this.#busy !== null || this.#frame !== 0) return;
     this.#frame = requestAnimationFrame((time) => {
       this.#frame = 0;
-      if (this.#viewer === null || this.#viewer.isLost) return;
+      if (this.#viewer === null || this.#viewer.isLost || this.#busy !== null) return; // a frame on its way has another one follow
       this.#busy = 'waiting for its turn';
-      this.#viewer.enter(this.#dirty || this.#spin !== 0, () => this.#draw(time));
+      this.#viewer.enter(this.#dirty || this.#spin !== 0 || this.#motion !== null, () => this.#draw(time));
     });
   }
 
@@ -473,8 +485,12 @@ export class Stage {
     if (drawn < 0) problem ||= this.#viewer.problem();
     if (isNew || problem) this.#tellRefusal(problem);
     if (isNew) this.#tellScale(width, height);
-    if (drawn === 1) this.#awaitFrame(start, quality.moving);
-    else this.#viewer.leave();
+    if (drawn === 1) {
+      this.#awaitFrame(start, quality.moving);
+    } else {
+      this.#viewer.leave();
+      this.#schedule(); // what moves may stand for a frame
+    }
   }
 
   /** The view goes on to where it shall be. @returns {boolean} it is not there yet */

@@ -51,6 +51,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   #extras = new Extras(this, this.#stage, { say: (...values) => this.#say(...values), failed: (...values) => this.#fail('loadfailure', ...values) });
   #animation = null; // animation.js's, once files have some
   #isAnimating = false; // it is being loaded
+  #isFull = false; // it needs vitrine-full
   #isLoaded = false;
   #warnings = [];
   #hasFrame = false;
@@ -346,7 +347,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     this.#updateSpin();
     this.#updateAnimation();
     stage.invalidate();
-    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
+    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'ground', 'shadow-intensity', 'autoplay', 'animation-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */
@@ -395,8 +396,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   async #load() {
     const { src, loading, environmentImage, skyboxImage } = this.#values;
     if (!this.#isOpen || src === undefined || (loading !== 'eager' && !this.#wasSeen)) return;
-    const core = loadCore(VitrineViewer);
-    core.catch(() => {}); // said below
+    loadCore(VitrineViewer, this.#needsFull).catch(() => {}); // said below
     const { scene } = this.#stage;
     const model = this.#wish;
     if (model.url === '') {
@@ -410,12 +410,19 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
     if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, scene))) return;
     try {
-      const loaded = await core;
+      const loaded = await loadCore(VitrineViewer, this.#needsFull);
       await ownTask();
       this.#stage.core = loaded;
     } catch (reason) {
       this.#fail('loadfailure', 'model', `The renderer cannot be loaded: ${reason.message}`, reason);
     }
+  }
+
+  /** The larger core, that has a ground and animations; who has it keeps it. */
+  get #needsFull() {
+    const { ground, shadowIntensity, autoplay, animationName } = this.#values;
+    this.#isFull ||= ground || shadowIntensity > 0 || autoplay || animationName !== '' || this.#stage.isAnimated;
+    return this.#isFull;
   }
 
   get #background() {
