@@ -215,7 +215,7 @@ describe('the package', { skip: missing }, () => {
     execFileSync('tar', ['-xzf', tarball, '-C', site]);
     const about = JSON.parse(readFileSync(join(site, 'package/package.json'), 'utf8'));
     assert.equal(Object.keys(about.exports['.'])[0], 'types');
-    for (const file of ['element/vitrine-viewer.js.map', 'element/hotspots.js', 'element/prompt.js', about.types, about.main, about.customElements, ...['./three', './fiber'].flatMap((name) => Object.values(about.exports[name])), 'vitrine-core.wasm', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'README.md', 'LICENSE']) {
+    for (const file of ['element/vitrine-viewer.js.map', 'element/hotspots.js', 'element/prompt.js', about.types, about.main, about.customElements, ...['./three', './fiber'].flatMap((name) => Object.values(about.exports[name])), 'vitrine-core.wasm', 'vitrine-full.js', 'vitrine-full.wasm', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'README.md', 'LICENSE']) {
       assert.ok(existsSync(join(site, 'package', file)), file);
     }
     for (const file of decoders) assert.ok(existsSync(join(site, 'package/element', file)), file);
@@ -230,7 +230,9 @@ describe('the package', { skip: missing }, () => {
   test('weighs what a page can carry', (context) => {
     const kilobytes = Number(report.match(/loads: ([\d.]+) KB/)[1]);
     context.diagnostic(report);
-    assert.ok(kilobytes < 192, `${kilobytes} KB gzip`);
+    assert.ok(kilobytes < 200, `${kilobytes} KB gzip`); // 185 is the aim; docs/web.md tells what it is made of
+    const whole = Number(report.match(/such an element loads: ([\d.]+) KB/)[1]);
+    assert.ok(whole > kilobytes && whole < 217, `with a ground or animations ${whole} KB gzip`);
     const ofThree = Number(report.match(/three\/index.js: \d+ bytes, (\d+) gzip/)[1]);
     assert.ok(ofThree > 0 && ofThree <= 10000, `vitrine-viewer/three: ${ofThree} bytes gzip beside its WebAssembly`);
     for (const [file, most] of Object.entries({ 'exr.js': 12, 'unpack.js': 4, 'draco.js': 14, 'draco.wasm': 70, 'meshopt.js': 9, 'basis.js': 14, 'basis.wasm': 260, 'animation.js': 1 })) {

@@ -72,7 +72,7 @@ async function measure(one, options, folder) {
   const { peers } = options;
   const { call, complaints, close } = await openSite({ out: folder, model, environment, gl: options.gl, peers });
   try {
-    const shared = await call('open');
+    const shared = await call('open', one.lit !== undefined);
     const { lit: light } = one, low = shared.low;
     const ground = light && [1, 1, 0, 1, ...light.color, ...light.sun, light.size, ...light.light];
     await call('place', { size, ior: 1.5, camera: one.camera ?? view, roughness: one.roughness, dispersion: one.dispersion, ground, stage: light && { low, ...light } });

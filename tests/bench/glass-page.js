@@ -122,7 +122,7 @@ class VitrineContestant {
   /** Adds the samples that are missing. */
   async refine() {
     const { size } = this.shared;
-    for (let drawn = 1; drawn !== 0; drawn = this.viewer.draw(size, size)) {
+    for (let drawn; (drawn = this.viewer.draw(size, size)) !== 0;) {
       if (drawn < 0) throw new Error(this.viewer.problem());
       if (drawn === 1) this.viewer.showOn(this.canvas);
       if (drawn === 2) await new Promise((done) => setTimeout(done, 5));
