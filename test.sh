@@ -2,8 +2,8 @@
 # Installs what is missing, builds everything and passes every test. Exit code 0: all passed.
 #   ./test.sh         about a quarter of an hour
 #   ./test.sh --all   also what is long: nothing left out under sanitizers, deliberate faults that tests must see, ten
-#                     minutes of hostile glTF files, films, job files of schedulers, the browser's picture against its
-#                     rivals'
+#                     minutes of hostile glTF files, films, job files of schedulers, Firefox, the browser's picture
+#                     against its rivals'
 set -eu
 cd "$(dirname "$0")"
 
@@ -58,6 +58,8 @@ if $all; then
   npm --prefix tests/many-machines install --no-audit --no-fund --loglevel=error
   node --test tests/many-machines/many-machines.test.mjs
   if command -v emcmake >/dev/null; then
+    echo "== Firefox"
+    node --test tests/firefox.test.mjs
     echo "== the browser's picture against its rivals'"
     npm --prefix tests/bench install --no-audit --no-fund --loglevel=error
     node tests/bench/glass.mjs --rounds 3

@@ -3,7 +3,7 @@
 # plainly what cannot be installed and goes on: the build leaves out what it can do without. Quick when nothing
 # is missing.
 #   scripts/dependencies.sh         what ./demo.sh and ./test.sh need
-#   scripts/dependencies.sh --all   what ./test.sh --all runs, too: films, schedulers
+#   scripts/dependencies.sh --all   what ./test.sh --all runs, too: films, schedulers, Firefox
 set -u
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
@@ -14,7 +14,7 @@ needed=(build-essential cmake ninja-build pkg-config libgles-dev libegl-dev libg
 optional=(libosmesa6-dev libglfw3-dev libembree-dev emscripten python3 xvfb xauth chromium clang-format)
 optional+=(libdraco-dev libmeshoptimizer-dev) # packed geometry in glTF files
 
-if [ "${1:-}" = --all ]; then optional+=(ffmpeg parallel slurm-wlm); fi
+if [ "${1:-}" = --all ]; then optional+=(ffmpeg parallel slurm-wlm firefox-esr); fi
 
 installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q '^install ok installed$'; }
 

@@ -8,6 +8,7 @@ import { dirname, join, resolve } from 'node:path';
 import { after, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { deflateSync } from 'node:zlib';
+import { PNG } from 'pngjs';
 import * as shapes from '../scripts/glb.mjs';
 import { glb, gltf } from '../scripts/glb.mjs';
 import { drawPlot } from '../scripts/plot.mjs';
@@ -126,6 +127,20 @@ describe('words', () => {
 });
 
 describe('output', () => {
+  test('the reference has the backgrounds that the renderer has', () => {
+    const picture = new PNG({ width: 96, height: 40 }); // wider than the frame: it is cut off
+    picture.data.forEach((_, at) => (picture.data[at] = at % 4 === 3 ? 255 : (at * 7) % 256 < 128 ? 30 : 200));
+    const wide = write('wide.png', PNG.sync.write(picture));
+    for (const [background, most] of [['#ff8020', 0.03], ['blurred:12', 0.03], [wide, 0.04], ['transparent', 0.03]]) {
+      const draw = (name, ...more) => assert.equal(vitrine(['render', 'sphere', '-r', '64,48', '--samples', '16', '--background', background, '--tone-mapping', 'neutral', '-o', name, ...more]).error, '');
+      draw('drawn.png');
+      draw('traced.png', '-t', 'reference', '--reference', 'drawn.png', '--reference-threshold', `${most}`);
+      const [drawn, traced] = ['drawn.png', 'traced.png'].map((name) => PNG.sync.read(readFileSync(join(folder, name))).data);
+      const alpha = (data) => data.filter((_, at) => at % 4 === 3);
+      assert.deepEqual(alpha(traced), alpha(drawn), background);
+    }
+  });
+
   test('a picture to standard output', () => {
     const result = vitrine(['render', 'diamond', ...small, '-o', '-']);
     assert.equal(result.code, 0, result.error);
@@ -306,7 +321,7 @@ describe('bad input', () => {
     refuses(render('sphere', '--background', '#12345'), ["'#12345'", 'hexadecimal']);
     refuses(render('sphere', '--background', 'nowhere.png'), ["'nowhere.png'", 'No such file']);
     refuses(render('sphere', '--background', write('text.png', 'once upon a time')), ["'text.png'", 'PNG, JPEG nor WebP']);
-    refuses(render('sphere', '-t', 'reference', '--background', '#fff'), ["'reference'", 'leave --background out']);
+    refuses(render('sphere', '-t', 'reference', '--background', '#fff', '--ground'), ["'reference'", 'leave --background or --ground out']);
     for (const [more, part] of [[['--bits', '16'], 'leave it out'], [['--analysis'], 'must be a PNG']]) {
       const result = vitrine([...render('sphere', ...more), '-o', 'x.exr']);
       assert.equal(result.code, 1);

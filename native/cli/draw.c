@@ -94,10 +94,10 @@ static vtResult trace(const vtDrawing* drawing, const vtInput* input, const vtFr
     vtResult result =
         vtTrace(drawing->options, input, frame, drawing->showsProgress, &picture->traced, error);
     if (result == vt_ok) {
-        result = vtTracePixels(&picture->traced, frame, &picture->pixels, error);
+        result = vtTracePixels(&picture->traced, input, frame, &picture->pixels, error);
     }
     if (result == vt_ok && drawing->format != vt_formatPng) {
-        result = vtTraceFloats(&picture->traced, frame, &floats, error);
+        result = vtTraceFloats(&picture->traced, input, frame, &floats, error);
     }
     if (result == vt_ok) {
         result = encode(drawing, frame, floats, picture, error);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "cli/backdrop.h"
 #include "image/image.h"
 #include "lab/metrics/timing.h"
 
@@ -58,29 +59,42 @@ static void analysisColor(const vtReferenceImage* image, size_t pixel, uint8_t* 
     memcpy(rgb, color, 3);
 }
 
-vtResult vtTracePixels(const vtReferenceImage* image, const vtFrame* frame, uint8_t** pixels, vtError* error)
+static vtVec3 shownColor(const vtReferenceImage* image, const vtFrame* frame, size_t pixel)
 {
-    size_t count = (size_t)image->width * (size_t)image->height;
-    *pixels = malloc(4 * count);
-    if (*pixels == NULL) {
-        return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", image->width,
-                      image->height);
+    vtVec3 shown = vtMakeVec3(image->radiance + 3 * pixel);
+    uint8_t color[3];
+    if (frame->output == vt_outputAnalysis) {
+        analysisColor(image, pixel, color);
+        return (vtVec3){(float)color[0] / 255.0f, (float)color[1] / 255.0f, (float)color[2] / 255.0f};
     }
-    vtReference_ToSrgb(image, *pixels);
-    for (size_t i = 0; i < count && frame->toneMapping != vt_toneMappingNone; ++i) {
-        const vtVec3 light = vtToneMap(frame->toneMapping, vtMakeVec3(image->radiance + 3 * i));
-        const float shown[3] = {light.x, light.y, light.z};
-        for (size_t k = 0; k < 3; ++k) {
-            (*pixels)[4 * i + k] = (uint8_t)(255.0f * vtLinearToSrgb(shown[k]) + 0.5f);
-        }
+    if (frame->linear) {
+        return shown;
     }
-    for (size_t i = 0; i < count && frame->output == vt_outputAnalysis; ++i) {
-        analysisColor(image, i, *pixels + 4 * i);
-    }
-    return vtSucceed(error);
+    shown = vtToneMap(frame->toneMapping, shown);
+    return (vtVec3){vtLinearToSrgb(shown.x), vtLinearToSrgb(shown.y), vtLinearToSrgb(shown.z)};
 }
 
-vtResult vtTraceFloats(const vtReferenceImage* image, const vtFrame* frame, float** rgba, vtError* error)
+/// The scene before what is behind it. Analysis shows no background.
+static vtResult compose(const vtReferenceImage* image, const vtInput* input, const vtFrame* frame,
+                        float* rgba, vtError* error)
+{
+    vtBackdrop backdrop;
+    const vtResult result = vtMakeBackdrop(input, frame, &backdrop, error);
+    for (int row = 0; row < image->height && result == vt_ok; ++row) {
+        for (int column = 0; column < image->width; ++column) {
+            const size_t pixel = (size_t)row * (size_t)image->width + (size_t)column;
+            const float share = image->covered[pixel];
+            const vtVec3 light = vtMakeVec3(image->radiance + 3 * pixel);
+            vtBackdrop_Show(&backdrop, column, row, vtScale(light, share > 0.0f ? 1.0f / share : 0.0f), share,
+                            rgba + 4 * pixel);
+        }
+    }
+    vtDestroyBackdrop(&backdrop);
+    return result;
+}
+
+vtResult vtTraceFloats(const vtReferenceImage* image, const vtInput* input, const vtFrame* frame,
+                       float** rgba, vtError* error)
 {
     const size_t count = (size_t)image->width * (size_t)image->height;
     *rgba = malloc(4 * count * sizeof **rgba);
@@ -88,17 +102,32 @@ vtResult vtTraceFloats(const vtReferenceImage* image, const vtFrame* frame, floa
         return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", image->width,
                       image->height);
     }
+    if (image->covered != NULL && frame->output != vt_outputAnalysis) {
+        return compose(image, input, frame, *rgba, error);
+    }
     for (size_t i = 0; i < count; ++i) {
-        vtVec3 shown = vtMakeVec3(image->radiance + 3 * i);
-        uint8_t color[3];
-        if (frame->output == vt_outputAnalysis) {
-            analysisColor(image, i, color);
-            shown = (vtVec3){(float)color[0] / 255.0f, (float)color[1] / 255.0f, (float)color[2] / 255.0f};
-        } else if (!frame->linear) {
-            shown = vtToneMap(frame->toneMapping, shown);
-            shown = (vtVec3){vtLinearToSrgb(shown.x), vtLinearToSrgb(shown.y), vtLinearToSrgb(shown.z)};
-        }
+        const vtVec3 shown = shownColor(image, frame, i);
         memcpy(*rgba + 4 * i, &(const float[4]){shown.x, shown.y, shown.z, 1.0f}, 4 * sizeof(float));
     }
     return vtSucceed(error);
+}
+
+vtResult vtTracePixels(const vtReferenceImage* image, const vtInput* input, const vtFrame* frame,
+                       uint8_t** pixels, vtError* error)
+{
+    const size_t count = 4 * (size_t)image->width * (size_t)image->height;
+    vtFrame shown = *frame;
+    shown.linear = false;
+    float* rgba = NULL;
+    *pixels = malloc(count);
+    if (*pixels == NULL) {
+        return vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d", image->width,
+                      image->height);
+    }
+    const vtResult result = vtTraceFloats(image, input, &shown, &rgba, error);
+    for (size_t i = 0; i < count && result == vt_ok; ++i) {
+        (*pixels)[i] = (uint8_t)(255.0f * vtClamp(rgba[i], 0.0f, 1.0f) + 0.5f);
+    }
+    free(rgba);
+    return result;
 }

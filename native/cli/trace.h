@@ -11,9 +11,12 @@ bool vtIsReference(const vtOptions* options);
 vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame, bool showsProgress,
                  vtReferenceImage* image, vtError* error);
 
-/// The frame's output (picture or analysis) of a traced image: RGBA, allocated by malloc.
-vtResult vtTracePixels(const vtReferenceImage* image, const vtFrame* frame, uint8_t** pixels, vtError* error);
+/// The frame's output (picture or analysis) of a traced image, before its background: RGBA, allocated by
+/// malloc.
+vtResult vtTracePixels(const vtReferenceImage* image, const vtInput* input, const vtFrame* frame,
+                       uint8_t** pixels, vtError* error);
 
 /// The same as floats, as vtRenderer_DrawFloats has them: linear light, or sRGB after tone mapping, by
 /// frame->linear.
-vtResult vtTraceFloats(const vtReferenceImage* image, const vtFrame* frame, float** rgba, vtError* error);
+vtResult vtTraceFloats(const vtReferenceImage* image, const vtInput* input, const vtFrame* frame,
+                       float** rgba, vtError* error);

@@ -103,7 +103,7 @@ static vtResult measure(const vtOptions* options, vtSession* session, Ladder* la
                                                    &ladder->truth, error)
                                          : vtFail(error, vt_errorMemory, "ladder: out of memory");
     if (result == vt_ok) {
-        result = vtTracePixels(&ladder->truth, frame, &ladder->truthPixels, error);
+        result = vtTracePixels(&ladder->truth, &session->input, frame, &ladder->truthPixels, error);
     }
     for (int i = 0; i < ladder->count && result == vt_ok; ++i) {
         result = climb(session, ladder, i, directions, error);

@@ -180,3 +180,15 @@ export class Progress {
     if (value > this.#value) this.#tell((this.#value = value));
   }
 }
+
+/** A sentence where no file has the variant that is asked for; their materials are as they are then. */
+export function variantProblem({ variantName = '', parts }) {
+  const names = parts.flatMap(({ variants }) => variants ?? []);
+  if (variantName === '' || names.includes(variantName)) return '';
+  return `variant-name is '${variantName}'; ${names.length > 0 ? `the files have ${names.map((name) => `'${name}'`).join(', ')}` : 'the files have none; leave it away'}`;
+}
+
+/** Has it a file with animations? @param {Scene|Source|null|undefined} source */
+export function isAnimated(source) {
+  return source?.parts?.some((part) => part.isAnimated) ?? false;
+}

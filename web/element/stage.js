@@ -1,16 +1,14 @@
 // A canvas with its viewer: what it shows, when it draws, and how well. Nothing is drawn unless the canvas can be
 // seen and something changed; once all rests, samples are added to the picture until it has enough.
-import { builtIn } from './loading.js';
+import { builtIn, isAnimated, variantProblem } from './loading.js';
 import { Viewer, ownTask } from './core.js';
 import { listMaterials } from './materials.js';
 import { decodeTexture } from './picture.js';
 import { Motion } from './motion.js';
 import { Orbit, usualFieldOfView } from './orbit.js';
+import { dprOf, sizeOf } from './pixels.js';
 import { Quality, levels } from './quality.js';
 
-const largestDpr = 2; // canvas pixels per CSS pixel
-const largestSide = 16384; // of a frame, as the core's table has it
-const mostPixels = 2 ** 24; // 1 GB on the GPU, with its samples
 const slice = 12; // milliseconds of building a scene at once
 const stillAfter = 250; // milliseconds without motion until the full frame
 
@@ -29,18 +27,6 @@ const stillAfter = 250; // milliseconds without motion until the full frame
  * @property {(sentence: string) => void} failed to draw
  * @property {(sentence: string) => void} unsupported
  */
-
-/** A sentence where no file has the variant that is asked for; their materials are as they are then. */
-function variantProblem({ variantName = '', parts }) {
-  const names = parts.flatMap(({ variants }) => variants ?? []);
-  if (variantName === '' || names.includes(variantName)) return '';
-  return `variant-name is '${variantName}'; ${names.length > 0 ? `the files have ${names.map((name) => `'${name}'`).join(', ')}` : 'the files have none; leave it away'}`;
-}
-
-/** @param {import('./loading.js').Scene|import('./loading.js').Source|null|undefined} source */
-function isAnimated(source) {
-  return source?.parts?.some((part) => part.isAnimated) ?? false;
-}
 
 export class Stage {
   /** Where the camera shall be. */
@@ -193,7 +179,7 @@ export class Stage {
   /** The full picture. @returns {ImageData} @throws {Error} a sentence */
   image() {
     if (!this.#hasScene) throw new Error('nothing is shown yet');
-    const [width, height] = this.#size(1);
+    const [width, height] = sizeOf(this.#host, 1);
     const canvas = this.#host.querySelector('canvas');
     if (this.#dirty || this.quality.level !== 0 || canvas.width !== width || canvas.height !== height) {
       this.#frameObject();
@@ -396,7 +382,7 @@ export class Stage {
 
   /** Finds the view that shows the whole scene, or the file's camera, where the scene or the shape of the picture is new. */
   #frameObject() {
-    const [width, height] = this.#size(1);
+    const [width, height] = sizeOf(this.#host, 1);
     const { orbit, cameraIndex } = this;
     const key = `${width / height} ${orbit.wantedFieldOfView} ${cameraIndex}`;
     if (key === this.#framedFor) return;
@@ -411,18 +397,6 @@ export class Stage {
     orbit.frame(eye, target, fov);
     this.view.jump();
     this.#told.warned('camera', problem);
-  }
-
-  /** Canvas pixels per CSS pixel: fewer where the picture would be larger than it may be. */
-  get #dpr() {
-    const { clientWidth, clientHeight } = this.#host;
-    const most = Math.min(largestSide / Math.max(1, clientWidth, clientHeight), Math.sqrt(mostPixels / Math.max(1, clientWidth * clientHeight)));
-    return Math.min(window.devicePixelRatio, largestDpr, most);
-  }
-
-  #size(scale) {
-    const { clientWidth, clientHeight } = this.#host;
-    return [clientWidth, clientHeight].map((side) => Math.max(1, Math.round(side * this.#dpr * scale)));
   }
 
   #awaitStill() {
@@ -468,7 +442,7 @@ export class Stage {
     const isNew = this.#dirty;
     this.#dirty = isNew && this.#step();
     const { pixelWidth, pixelHeight } = this.#drawn;
-    const [width, height] = isNew ? this.#size(quality.scale) : [pixelWidth, pixelHeight];
+    const [width, height] = isNew ? sizeOf(this.#host, quality.scale) : [pixelWidth, pixelHeight];
     let problem = isNew ? this.#prepare(width, height) : '';
     const start = performance.now();
     const drawn = this.#viewer.draw(width, height);
@@ -528,8 +502,8 @@ export class Stage {
     if (Object.keys(size).every((key) => this.#drawn[key] === size[key])) return;
     this.#drawn = size;
     const { reason, scale } = this.quality;
-    const minimumDpr = this.#dpr * levels.at(-1).scale;
-    const detail = { reportedDpr: window.devicePixelRatio, renderedDpr: this.#dpr * scale, minimumDpr, ...size, reason };
+    const dpr = dprOf(this.#host), minimumDpr = dpr * levels.at(-1).scale;
+    const detail = { reportedDpr: window.devicePixelRatio, renderedDpr: dpr * scale, minimumDpr, ...size, reason };
     this.#viewer.lessened = reason === 'frame-time' && scale < 1 ? detail : null;
     this.#told.scaled(detail);
   }

@@ -321,6 +321,7 @@ void vtDestroyReferenceImage(vtReferenceImage* image)
     free(image->states);
     free(image->reflections);
     free(image->radiance);
+    free(image->covered);
     *image = (vtReferenceImage){0};
 }
 

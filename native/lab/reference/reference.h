@@ -46,7 +46,9 @@ typedef struct vtReferenceImage {
     uint8_t* states;   ///< VT_PATH_BACKGROUND, VT_PATH_EXITED, VT_PATH_LOST or VT_PATH_OPAQUE
     uint8_t* reflections; ///< 1 where total internal reflection took part
     float* radiance;      ///< 3 a pixel, linear, after exposure, mean over the samples; a lost path shows
-                          ///< the environment in its last direction. NULL without an environment.
+                          ///< the environment in its last direction. NULL without an environment. Where
+                          ///< frame->background is not the environment, of what covers the pixel alone
+    float* covered; ///< share of the samples that meet anything; NULL: the background is the environment
 } vtReferenceImage;
 
 /// Traces a picture. Fails with vt_errorArgument for a value out of range and with vt_errorMemory; then

@@ -159,9 +159,13 @@ static vtVec3 lightOf(const Job* job, const vtReferencePath* path)
 static void addSamples(const Job* job, const Tile* tile, const vtPathList* list)
 {
     vtVec3 sums[tileSide * tileSide] = {{0}};
+    bool isCovered[tileSide * tileSide] = {0};
     for (uint32_t i = 0; i < list->count; ++i) {
-        vtVec3* sum = &sums[list->paths[i].source];
-        *sum = vtAdd(*sum, lightOf(job, &list->paths[i]));
+        const vtReferencePath* path = &list->paths[i];
+        if (job->image->covered == NULL || path->state != VT_PATH_BACKGROUND || path->passes > 0) {
+            sums[path->source] = vtAdd(sums[path->source], lightOf(job, path));
+            isCovered[path->source] = true;
+        }
     }
     const float share = 1.0f / (float)job->samples;
     const vtVec3* sum = sums;
@@ -169,7 +173,11 @@ static void addSamples(const Job* job, const Tile* tile, const vtPathList* list)
         for (int column = tile->firstColumn; column < tile->lastColumn; ++column, ++sum) {
             // Only their mean is cut to what a display can show: what is found by chance is seldom, and
             // bright.
-            float* pixel = job->image->radiance + 3 * pixelIndex(job, column, row);
+            const size_t index = pixelIndex(job, column, row);
+            float* pixel = job->image->radiance + 3 * index;
+            if (job->image->covered != NULL) {
+                job->image->covered[index] += isCovered[sum - sums] ? share : 0.0f;
+            }
             pixel[0] += sum->x * share;
             pixel[1] += sum->y * share;
             pixel[2] += sum->z * share;
@@ -266,6 +274,7 @@ static vtResult createImage(const vtReferenceDef* def, vtReferenceImage* image, 
 {
     const size_t count = (size_t)def->frame->width * (size_t)def->frame->height;
     const bool centres = !def->onlyPicture;
+    const bool hasBackground = def->environment != NULL && def->frame->background != vt_backgroundEnvironment;
     *image = (vtReferenceImage){
         .width = def->frame->width,
         .height = def->frame->height,
@@ -274,10 +283,12 @@ static vtResult createImage(const vtReferenceDef* def, vtReferenceImage* image, 
         .states = centres ? malloc(count) : NULL,
         .reflections = centres ? malloc(count) : NULL,
         .radiance = def->environment != NULL ? calloc(3 * count, sizeof(float)) : NULL,
+        .covered = hasBackground ? calloc(count, sizeof(float)) : NULL,
     };
     const bool hasCentres = image->directions != NULL && image->events != NULL && image->states != NULL &&
                             image->reflections != NULL;
-    if ((centres && !hasCentres) || (def->environment != NULL && image->radiance == NULL)) {
+    if ((centres && !hasCentres) || (def->environment != NULL && image->radiance == NULL) ||
+        (hasBackground && image->covered == NULL)) {
         vtDestroyReferenceImage(image);
         return vtFail(error, vt_errorMemory, "reference: out of memory for %d x %d", def->frame->width,
                       def->frame->height);

@@ -1,0 +1,113 @@
+#include "cli/backdrop.h"
+
+#include <math.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "image/image.h"
+#include "light/blur.h"
+
+vtResult vtMakeBackdrop(const vtInput* input, const vtFrame* frame, vtBackdrop* backdrop, vtError* error)
+{
+    *backdrop = (vtBackdrop){.frame = frame,
+                             .camera = vtMakeCamera(frame),
+                             .picture = &input->background,
+                             .exposure = exp2f(frame->exposure)};
+    return frame->background == vt_backgroundBlurred
+               ? vtBlurEnvironment(&input->environment, frame->backgroundBlur, &backdrop->blurred, error)
+               : vtSucceed(error);
+}
+
+void vtDestroyBackdrop(vtBackdrop* backdrop)
+{
+    vtDestroyEnvironment(&backdrop->blurred);
+    *backdrop = (vtBackdrop){0};
+}
+
+static vtVec3 toLinear(vtVec3 color)
+{
+    return (vtVec3){vtSrgbToLinear(color.x), vtSrgbToLinear(color.y), vtSrgbToLinear(color.z)};
+}
+
+static vtVec3 toSrgb(vtVec3 color)
+{
+    return (vtVec3){vtLinearToSrgb(color.x), vtLinearToSrgb(color.y), vtLinearToSrgb(color.z)};
+}
+
+static vtVec3 mix(vtVec3 a, vtVec3 b, float share)
+{
+    return vtMulAdd(vtScale(a, 1.0f - share), share, b);
+}
+
+static vtVec3 texel(const vtImage* picture, int x, int y)
+{
+    x = x < 0 ? 0 : x < picture->width ? x : picture->width - 1;
+    y = y < 0 ? 0 : y < picture->height ? y : picture->height - 1;
+    const uint8_t* at = picture->pixels + 4 * ((size_t)y * (size_t)picture->width + (size_t)x);
+    return toLinear((vtVec3){(float)at[0] / 255.0f, (float)at[1] / 255.0f, (float)at[2] / 255.0f});
+}
+
+static vtVec3 readBetween(const vtImage* picture, float x, float y)
+{
+    const float left = floorf(x - 0.5f), top = floorf(y - 0.5f);
+    const int i = (int)left, j = (int)top;
+    const float across = x - 0.5f - left, down = y - 0.5f - top;
+    return mix(mix(texel(picture, i, j), texel(picture, i + 1, j), across),
+               mix(texel(picture, i, j + 1), texel(picture, i + 1, j + 1), across), down);
+}
+
+/// The picture fills the frame; of a larger one the mean over the pixel.
+static vtVec3 pictureAt(const vtBackdrop* backdrop, float x, float y)
+{
+    const vtImage* picture = backdrop->picture;
+    const vtFrame* frame = backdrop->frame;
+    const float scale =
+        fminf((float)picture->width / (float)frame->width, (float)picture->height / (float)frame->height);
+    const int parts = scale > 1.0f ? (int)fminf(ceilf(scale), 64.0f) : 1; // along a side of the pixel
+    vtVec3 sum = {0.0f, 0.0f, 0.0f};
+    for (int i = 0; i < parts * parts; ++i) {
+        const float right = ((float)(i % parts) + 0.5f) / (float)parts - 0.5f;
+        const float down = ((float)(i / parts) + 0.5f) / (float)parts - 0.5f;
+        const float u = 0.5f * (float)picture->width + scale * (x + right - 0.5f * (float)frame->width);
+        const float v = 0.5f * (float)picture->height + scale * (y + down - 0.5f * (float)frame->height);
+        sum = vtAdd(sum, readBetween(picture, u, v));
+    }
+    return vtScale(sum, 1.0f / (float)(parts * parts));
+}
+
+static vtVec3 blurredAt(const vtBackdrop* backdrop, float x, float y)
+{
+    const vtCamera* camera = &backdrop->camera;
+    const float right = (x / (float)backdrop->frame->width * 2.0f - 1.0f) * camera->high[0];
+    const float up = (1.0f - y / (float)backdrop->frame->height * 2.0f) * camera->high[1];
+    const vtVec3 towards = vtMulAdd(vtMulAdd(camera->forward, right, camera->right), up, camera->up);
+    const vtVec3 direction = camera->orthographic ? camera->forward : vtNormalize(towards);
+    return vtScale(vtEnvironment_Sample(&backdrop->blurred, direction), backdrop->exposure);
+}
+
+static vtVec3 shownLight(const vtFrame* frame, vtVec3 light)
+{
+    light = vtToneMap(frame->toneMapping, light);
+    return (vtVec3){fminf(light.x, 1.0f), fminf(light.y, 1.0f), fminf(light.z, 1.0f)};
+}
+
+void vtBackdrop_Show(const vtBackdrop* backdrop, int column, int row, vtVec3 light, float share, float* rgba)
+{
+    const vtFrame* frame = backdrop->frame;
+    const float x = (float)column + 0.5f, y = (float)row + 0.5f;
+    const bool isLight = frame->background == vt_backgroundBlurred;
+    vtVec3 back = toLinear(frame->backgroundColor);
+    if (isLight) {
+        light = mix(blurredAt(backdrop, x, y), light, share);
+    } else if (frame->background == vt_backgroundPicture) {
+        back = pictureAt(backdrop, x, y);
+    }
+    vtVec3 shown = frame->linear ? light : shownLight(frame, light);
+    const bool isOver = !isLight && frame->background != vt_backgroundTransparent;
+    shown = isOver ? mix(back, shown, share) : shown;
+    shown = frame->linear ? shown : toSrgb(shown);
+    rgba[0] = shown.x;
+    rgba[1] = shown.y;
+    rgba[2] = shown.z;
+    rgba[3] = frame->background == vt_backgroundTransparent ? share : 1.0f;
+}
