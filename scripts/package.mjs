@@ -141,10 +141,10 @@ const weigh = (name, when = '') => {
   console.log(`  ${name}: ${statSync(join(folder, name)).size} bytes, ${bytes} gzip${when}`);
   return bytes;
 };
-const sum = loaded.reduce((bytes, name) => bytes + weigh(name), 0);
-console.log(`  all that the element loads: ${(sum / 1000).toFixed(1)} KB gzip`);
-const whole = ['vitrine-full.wasm', 'vitrine-full.js'].reduce((bytes, name) => bytes + weigh(name, ', in place of vitrine-core with a ground or animations'), 0);
-console.log(`  all that such an element loads: ${((sum + whole - loaded.slice(0, 2).reduce((bytes, name) => bytes + gzipSync(readFileSync(join(folder, name)), { level: 9 }).length, 0)) / 1000).toFixed(1)} KB gzip`);
+const [coreWasm, coreScript, element] = loaded.map((name) => weigh(name));
+console.log(`  all that the element loads: ${((coreWasm + coreScript + element) / 1000).toFixed(1)} KB gzip`);
+const full = ['vitrine-full.wasm', 'vitrine-full.js'].reduce((bytes, name) => bytes + weigh(name, ', in place of vitrine-core with a ground or animations'), 0);
+console.log(`  all that such an element loads: ${((full + element) / 1000).toFixed(1)} KB gzip`);
 const ofThree = ['vitrine-three.wasm', 'vitrine-three.js', 'three/index.js'].reduce((bytes, name) => bytes + weigh(name, ', of vitrine-viewer/three'), 0);
 console.log(`  all that vitrine-viewer/three loads: ${(ofThree / 1000).toFixed(1)} KB gzip`);
 weigh('vitrine-shaders.txt', ', loaded once a picture needs it');

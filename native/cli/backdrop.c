@@ -34,11 +34,6 @@ static vtVec3 toSrgb(vtVec3 color)
     return (vtVec3){vtLinearToSrgb(color.x), vtLinearToSrgb(color.y), vtLinearToSrgb(color.z)};
 }
 
-static vtVec3 mix(vtVec3 a, vtVec3 b, float share)
-{
-    return vtMulAdd(vtScale(a, 1.0f - share), share, b);
-}
-
 static vtVec3 texel(const vtImage* picture, int x, int y)
 {
     x = x < 0 ? 0 : x < picture->width ? x : picture->width - 1;
@@ -52,8 +47,8 @@ static vtVec3 readBetween(const vtImage* picture, float x, float y)
     const float left = floorf(x - 0.5f), top = floorf(y - 0.5f);
     const int i = (int)left, j = (int)top;
     const float across = x - 0.5f - left, down = y - 0.5f - top;
-    return mix(mix(texel(picture, i, j), texel(picture, i + 1, j), across),
-               mix(texel(picture, i, j + 1), texel(picture, i + 1, j + 1), across), down);
+    return vtMix(vtMix(texel(picture, i, j), texel(picture, i + 1, j), across),
+                 vtMix(texel(picture, i, j + 1), texel(picture, i + 1, j + 1), across), down);
 }
 
 /// The picture fills the frame; of a larger one the mean over the pixel.
@@ -98,13 +93,13 @@ void vtBackdrop_Show(const vtBackdrop* backdrop, int column, int row, vtVec3 lig
     const bool isLight = frame->background == vt_backgroundBlurred;
     vtVec3 back = toLinear(frame->backgroundColor);
     if (isLight) {
-        light = mix(blurredAt(backdrop, x, y), light, share);
+        light = vtMix(blurredAt(backdrop, x, y), light, share);
     } else if (frame->background == vt_backgroundPicture) {
         back = pictureAt(backdrop, x, y);
     }
     vtVec3 shown = frame->linear ? light : shownLight(frame, light);
     const bool isOver = !isLight && frame->background != vt_backgroundTransparent;
-    shown = isOver ? mix(back, shown, share) : shown;
+    shown = isOver ? vtMix(back, shown, share) : shown;
     shown = frame->linear ? shown : toSrgb(shown);
     rgba[0] = shown.x;
     rgba[1] = shown.y;

@@ -69,38 +69,27 @@ static vtResult addKey(const char* file, int row, const char* line, vtCameraPath
 
 static vtResult readKeys(const char* file, vtCameraPath* path, vtError* error)
 {
-    uint8_t* bytes;
-    size_t size;
-    vtResult result = vtReadFile(file, &bytes, &size, error);
+    char* text;
+    vtResult result = vtReadText(file, &text, error);
     if (result != vt_ok) {
         return result;
     }
     size_t lines = 1;
-    for (size_t i = 0; i < size; ++i) {
-        lines += bytes[i] == '\n';
+    for (const char* end = strchr(text, '\n'); end != NULL; end = strchr(end + 1, '\n')) {
+        ++lines;
     }
     path->keys = calloc(lines < mostKeys ? lines + 1 : mostKeys + 1, sizeof *path->keys);
-    char* text = calloc(size + 1, 1);
-    if (path->keys == NULL || text == NULL) {
+    if (path->keys == NULL) {
         result = vtFail(error, vt_errorMemory, "--camera-keys '%.200s': out of memory", file);
-    } else {
-        memcpy(text, bytes, size);
     }
-    int row = 0;
-    for (char* line = text; line != NULL && result == vt_ok;) {
-        char* next = strchr(line, '\n');
-        if (next != NULL) {
-            *next++ = '\0';
-        }
-        line[strcspn(line, "#\r")] = '\0';
-        ++row;
+    char *at = text, *line;
+    for (int row = 1; result == vt_ok && (line = vtNextLine(&at)) != NULL; ++row) {
+        line[strcspn(line, "#")] = '\0';
         if (line[strspn(line, " \t")] != '\0') {
             result = addKey(file, row, line, path, error);
         }
-        line = next;
     }
     free(text);
-    vtFree(bytes);
     if (result == vt_ok && path->keyCount == 0) {
         result = vtFail(error, vt_errorArgument, "--camera-keys '%.200s' has no key", file);
     }
@@ -146,11 +135,6 @@ int vtCameraPath_FrameCount(const vtCameraPath* path)
     return path->turntable;
 }
 
-static vtVec3 mix(vtVec3 a, vtVec3 b, double share)
-{
-    return vtAdd(vtScale(a, (float)(1.0 - share)), vtScale(b, (float)share));
-}
-
 /// Slope at a key, a second.
 static vtVec3 slopeAt(const vtCameraPath* path, size_t i, size_t offset)
 {
@@ -168,7 +152,7 @@ static vtVec3 pointAt(const vtCameraPath* path, size_t i, double share, size_t o
     const vtVec3* from = (const vtVec3*)(const void*)((const char*)key + offset);
     const vtVec3* to = (const vtVec3*)(const void*)((const char*)(key + 1) + offset);
     const double length = key[1].time - key->time, s = share, s2 = s * s, s3 = s2 * s;
-    const vtVec3 points = mix(*from, *to, 3.0 * s2 - 2.0 * s3);
+    const vtVec3 points = vtMix(*from, *to, (float)(3.0 * s2 - 2.0 * s3));
     const vtVec3 first = vtScale(slopeAt(path, i, offset), (float)(length * (s3 - 2.0 * s2 + s)));
     const vtVec3 second = vtScale(slopeAt(path, i + 1, offset), (float)(length * (s3 - s2)));
     return vtAdd(points, vtAdd(first, second));

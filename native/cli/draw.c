@@ -93,11 +93,13 @@ static vtResult trace(const vtDrawing* drawing, const vtInput* input, const vtFr
     float* floats = NULL;
     vtResult result =
         vtTrace(drawing->options, input, frame, drawing->showsProgress, &picture->traced, error);
-    if (result == vt_ok) {
+    if (result == vt_ok && drawing->format == vt_formatPng) {
         result = vtTracePixels(&picture->traced, input, frame, &picture->pixels, error);
-    }
-    if (result == vt_ok && drawing->format != vt_formatPng) {
-        result = vtTraceFloats(&picture->traced, input, frame, &floats, error);
+    } else if (result == vt_ok) { // encode gives the pixels, too
+        picture->pixels = malloc(4 * (size_t)frame->width * (size_t)frame->height);
+        result = picture->pixels != NULL ? vtTraceFloats(&picture->traced, input, frame, &floats, error)
+                                         : vtFail(error, vt_errorMemory, "picture: out of memory for %d x %d",
+                                                  frame->width, frame->height);
     }
     if (result == vt_ok) {
         result = encode(drawing, frame, floats, picture, error);

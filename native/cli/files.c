@@ -67,6 +67,36 @@ vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* er
     return result;
 }
 
+vtResult vtReadText(const char* path, char** text, vtError* error)
+{
+    uint8_t* bytes;
+    size_t size;
+    *text = NULL;
+    const vtResult result = vtReadFile(path, &bytes, &size, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    *text = malloc(size + 1);
+    if (*text != NULL) {
+        memcpy(*text, bytes, size);
+        (*text)[size] = '\0';
+    }
+    vtFree(bytes);
+    return *text != NULL ? vt_ok : vtFail(error, vt_errorMemory, "file '%s': out of memory", path);
+}
+
+char* vtNextLine(char** at)
+{
+    char* line = *at;
+    if (line == NULL) {
+        return NULL;
+    }
+    char* end = strchr(line, '\n');
+    *at = end != NULL ? end + 1 : NULL;
+    line[strcspn(line, "\r\n")] = '\0';
+    return line;
+}
+
 /// Is the resolved path below the resolved folder?
 static bool isBelow(const char* path, const char* folder)
 {

@@ -8,6 +8,12 @@
 /// caller's to free.
 vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* error);
 
+/// The same as text with a zero at its end, which free takes.
+vtResult vtReadText(const char* path, char** text, vtError* error);
+
+/// The next line of a text, without LF or CRLF, and *at behind it; NULL past the last one.
+char* vtNextLine(char** at);
+
 /// Writes a whole file ("-": standard output; a device or a pipe as it is). The file appears complete or not
 /// at all, as vtBeginFile has it, so that an older one stays where something fails.
 vtResult vtWriteFile(const char* path, const void* bytes, size_t size, vtError* error);

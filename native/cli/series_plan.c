@@ -61,34 +61,23 @@ static vtResult checkOptions(const vtOptions* options, const vtPlan* plan, vtErr
 
 static vtResult readList(const char* path, vtPlan* plan, vtError* error)
 {
-    uint8_t* bytes;
-    size_t size;
-    vtResult result = vtReadFile(path, &bytes, &size, error);
+    const vtResult result = vtReadText(path, &plan->list, error);
     if (result != vt_ok) {
         return result;
     }
     size_t lines = 1;
-    for (size_t i = 0; i < size; ++i) {
-        lines += bytes[i] == '\n';
+    for (const char* end = strchr(plan->list, '\n'); end != NULL; end = strchr(end + 1, '\n')) {
+        ++lines;
     }
-    plan->list = calloc(size + 1, 1);
     plan->models = calloc(lines, sizeof *plan->models);
-    if (plan->list == NULL || plan->models == NULL) {
-        vtFree(bytes);
+    if (plan->models == NULL) {
         return vtFail(error, vt_errorMemory, "--list '%.200s': out of memory", path);
     }
-    memcpy(plan->list, bytes, size);
-    vtFree(bytes);
-    for (char* line = plan->list; line != NULL;) {
-        char* next = strchr(line, '\n');
-        if (next != NULL) {
-            *next++ = '\0';
-        }
-        line[strcspn(line, "\r")] = '\0';
+    char *at = plan->list, *line;
+    while ((line = vtNextLine(&at)) != NULL) {
         if (*line != '\0') {
             plan->models[plan->modelCount++] = line;
         }
-        line = next;
     }
     return plan->modelCount > 0
                ? vt_ok

@@ -34,6 +34,12 @@ static inline vtVec3 vtMulAdd(vtVec3 a, float s, vtVec3 b)
     return (vtVec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
+/// Share t of b, the rest of a.
+static inline vtVec3 vtMix(vtVec3 a, vtVec3 b, float t)
+{
+    return vtMulAdd(vtScale(a, 1.0f - t), t, b);
+}
+
 static inline float vtDot(vtVec3 a, vtVec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -38,11 +38,6 @@ static float mod(float x, float y)
     return x - y * floorf(x / y);
 }
 
-static vtVec3 mix(vtVec3 a, vtVec3 b, float t)
-{
-    return vtAdd(vtScale(a, 1.0f - t), vtScale(b, t));
-}
-
 // ------------------------------------------------------------- twins of environment.glsl, in the same order
 
 static vec2 environmentCoordinates(vtVec3 d)
@@ -79,9 +74,10 @@ static float environmentLamp(vtVec3 d, vtVec3 centre, float halfWidth, float hal
 vtVec3 vtEnvironmentStudio(vtVec3 d)
 {
     const vtVec3 wall =
-        mix(vec3(0.030f, 0.033f, 0.040f), vec3(0.006f, 0.007f, 0.009f), smoothstep(-0.1f, 0.9f, d.y));
-    const vtVec3 ground = mix(vec3(0.020f, 0.021f, 0.025f), vec3(0.110f, 0.103f, 0.092f), 0.5f + 0.5f * d.x);
-    vtVec3 light = mix(ground, wall, smoothstep(-0.55f, 0.10f, d.y));
+        vtMix(vec3(0.030f, 0.033f, 0.040f), vec3(0.006f, 0.007f, 0.009f), smoothstep(-0.1f, 0.9f, d.y));
+    const vtVec3 ground =
+        vtMix(vec3(0.020f, 0.021f, 0.025f), vec3(0.110f, 0.103f, 0.092f), 0.5f + 0.5f * d.x);
+    vtVec3 light = vtMix(ground, wall, smoothstep(-0.55f, 0.10f, d.y));
 
     const float towards = 0.5f - 0.5f * d.z;
     const float away = 1.0f - towards;
@@ -123,7 +119,7 @@ vtVec3 vtEnvironmentSky(vtVec3 d)
         const float q = mod(floorf(d.x / below) + floorf(d.z / below), 2.0f) - 0.5f;
         const float contrast = smoothstep(0.03f, 0.30f, below);
         const vtVec3 ground = vtScale(vec3(0.30f, 0.26f, 0.20f), 1.0f + 0.55f * contrast * q);
-        light = mix(ground, haze, expf(-9.0f * below));
+        light = vtMix(ground, haze, expf(-9.0f * below));
     }
 
     if (d.y > -0.05f) {
@@ -157,10 +153,11 @@ vtVec3 vtEnvironmentImage(const vtEnvironment* environment, vtVec3 d)
     const float x = uv.x * (float)environment->width - 0.5f; // texel centres lie at halves
     const float y = (1.0f - uv.y) * (float)environment->height - 0.5f;
     const int column = (int)floorf(x), row = (int)floorf(y);
-    const vtVec3 top = mix(texel(environment, column, row), texel(environment, column + 1, row), vtFract(x));
+    const vtVec3 top =
+        vtMix(texel(environment, column, row), texel(environment, column + 1, row), vtFract(x));
     const vtVec3 bottom =
-        mix(texel(environment, column, row + 1), texel(environment, column + 1, row + 1), vtFract(x));
-    return mix(top, bottom, vtFract(y));
+        vtMix(texel(environment, column, row + 1), texel(environment, column + 1, row + 1), vtFract(x));
+    return vtMix(top, bottom, vtFract(y));
 }
 
 // ------------------------------------------------------------------------------------------ the public API

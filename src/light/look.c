@@ -19,11 +19,6 @@
 #include "mesh/mesh_triangle.h"
 #include "shaders_es3/common/constants.h"
 
-static vtVec3 mix(vtVec3 a, vtVec3 b, float t)
-{
-    return vtMulAdd(vtScale(a, 1.0f - t), t, b);
-}
-
 static vtVec3 grey(float value)
 {
     return (vtVec3){value, value, value};
@@ -287,9 +282,9 @@ vtVec3 vtLook_Reflectance(const vtLook* look, float cosine, float exact, float i
     const float f = (ior - 1.0f) / (ior + 1.0f);
     const float share = vtClamp((exact - f * f) / fmaxf(1.0f - f * f, 1e-6f), 0.0f, 1.0f);
     const vtVec3 F0 = reflectedAhead(look, ior);
-    vtVec3 F = look->mirror ? F0 : mix(F0, grey(look->specular), share);
+    vtVec3 F = look->mirror ? F0 : vtMix(F0, grey(look->specular), share);
     if (look->film > 0.0f && !fromInside) {
-        F = mix(F, filmReflectance(cosine, look, F0), look->film);
+        F = vtMix(F, filmReflectance(cosine, look, F0), look->film);
     }
     return (vtVec3){vtClamp(F.x, 0.0f, 1.0f), vtClamp(F.y, 0.0f, 1.0f), vtClamp(F.z, 0.0f, 1.0f)};
 }
@@ -354,7 +349,7 @@ static vtVec3 lightOfLight(const vtLight* light, const vtShadows* shadows, vtVec
     const float d = nh * nh * (a * a - 1.0f) + 1.0f, D = a * a / (VT_PI * d * d);
     const float shadowing = 0.5f / (nl * sqrtf(nv * nv * (1.0f - a * a) + a * a) +
                                     nv * sqrtf(nl * nl * (1.0f - a * a) + a * a) + 1e-6f);
-    const vtVec3 F = mix(F0, grey(F90), powf(1.0f - vh, 5.0f));
+    const vtVec3 F = vtMix(F0, grey(F90), powf(1.0f - vh, 5.0f));
     const vtVec3 sent = vtMulAdd(vtScale(matt, 1.0f / VT_PI), D * shadowing, F);
     return withShadows(shadows, G, L, directional ? INFINITY : distance,
                        vtScale(vtMultiply(light->color, sent), fade * cone * cone * nl));
@@ -378,7 +373,7 @@ vtVec3 vtLook_SentLight(const vtLook* look, const vtIllumination* illumination, 
         const vtVec3 R = vtNormalize(vtMulAdd(I, 2.0f * cosine, N));
         vtVec3 share = reflectedShare(F0, F90, look->roughness, cosine);
         if (look->film > 0.0f) {
-            share = mix(share, filmReflectance(cosine, look, F0), look->film);
+            share = vtMix(share, filmReflectance(cosine, look, F0), look->film);
         }
         const vtVec3 diffuse =
             vtScale(vtMultiply(look->base, vtLighting_Diffuse(illumination->lighting, N)), matt);
