@@ -78,16 +78,17 @@ function difference(a, b) {
 }
 
 describe('files in the element', { skip }, () => {
-  const files = {}, requests = [], complaints = [], missing = new Set();
+  const files = {}, requests = [], complaints = [], missing = new Set(), delays = {};
   let server, browser, page, folder, plain;
 
   before(async () => {
     mkdirSync(screenshots, { recursive: true });
     folder = mkdtempSync(join(tmpdir(), 'vitrine-models-'));
     plain = still();
-    server = await listen((request, response) => {
+    server = await listen(async (request, response) => {
       const pathname = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
       requests.push(pathname);
+      await new Promise((done) => setTimeout(done, delays[pathname] ?? 0));
       const send = (body, type) => response.writeHead(200, { 'content-type': type, 'content-security-policy': csp }).end(body);
       if (pathname === '/page.html') {
         send('<!doctype html><html lang="en"><title>Files</title><link rel="stylesheet" href="/test.css"><link rel="icon" href="/icon.png">'
@@ -364,6 +365,14 @@ describe('files in the element', { skip }, () => {
     same(t, 'another file', await show('plain.glb', plain), native('plain.glb', plain), 0.3);
     assert.deepEqual(await page.evaluate(() => a.availableAnimations), []);
     assert.deepEqual(complaints.splice(0), []);
+  });
+
+  test('the smaller core that comes between a file with animations and the larger core', async (t) => {
+    Object.assign(delays, { '/vitrine-core.wasm': 500, '/vitrine-full.wasm': 1500 });
+    t.after(() => Object.keys(delays).forEach((name) => delete delays[name]));
+    await page.goto(`${server.address}/page.html?slow`);
+    await show('moving.glb', moving());
+    assert.deepEqual(await page.evaluate(() => [a.availableAnimations, a.duration]), [['slide', 'grow'], 2]);
   });
 
   test('animations are played, in view only, and not where motion is unwelcome', async () => {

@@ -122,8 +122,13 @@ export class Stage {
   /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source|import('./loading.js').Scene} source */
   show(kind, source) {
     if (kind === 'model') this.#coming = null;
-    if (this.#viewer === null || this.#viewer.isLost || (isAnimated(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
+    if (this.#viewer === null || this.#viewer.isLost || this.#awaitsFull(source)) this.#pending[kind] = source;
     else this.#upload(kind, source);
+  }
+
+  /** Is the source for the viewer of the larger core, which comes yet? */
+  #awaitsFull(source) {
+    return isAnimated(source) && !this.#viewer.isFull;
   }
 
   /** There is no model any more. */
@@ -282,7 +287,7 @@ export class Stage {
     this.#pending = {};
     for (const kind of ['environment', 'background', 'model']) {
       if (scene[kind] !== null) this.#upload(kind, scene[kind], false);
-      if (pending[kind] !== undefined) this.#upload(kind, pending[kind]);
+      if (pending[kind] !== undefined) this.show(kind, pending[kind]);
     }
   }
 
