@@ -167,10 +167,29 @@ VT_API vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error);
 /// 2008). Does nothing where they are there already, or the mesh lacks these coordinates.
 VT_API vtResult vtComputeTangents(vtMesh* mesh, int texcoords, vtError* error);
 
-/// One of the built-in shapes: sphere torus knot goblet bottle diamond cube plane tumbler water; all but the
-/// plane are closed and outward. Tumbler and water fit one in the other. Fails with vt_errorArgument for
+/// One of the built-in shapes: sphere torus knot goblet bottle diamond cube plane tumbler water panel; all
+/// but the plane are closed and outward. Tumbler and water fit one in the other. Fails with vt_errorArgument for
 /// another name.
 VT_API vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error);
+
+#define VT_MIN_PANEL 0.001f
+#define VT_MAX_PANEL 1e6f
+
+/// A pane about the origin that faces +z, with numbers as CSS has them of a box, in any unit.
+typedef struct vtPanelDef {
+    float width, height; ///< VT_MIN_PANEL to VT_MAX_PANEL. Default 2, 1.25
+    float radius;        ///< of its corners, 0 to VT_MAX_PANEL, at most half of the shorter side. Default 0.25
+    /// How far in its edges are rounded, 0 to VT_MAX_PANEL, at most half of the shorter side; and down, at most
+    /// half of the thickness. Default 0.12
+    float bevel;
+    float thickness; ///< VT_MIN_PANEL to VT_MAX_PANEL. Default 0.25
+} vtPanelDef;
+
+VT_API vtPanelDef vtDefaultPanelDef(void);
+
+/// The shape `panel` of those numbers: closed, normals smooth where its edges are rounded. Fails with
+/// vt_errorArgument for a number out of its range, and with vt_errorMemory.
+VT_API vtResult vtCreatePanel(const vtPanelDef* def, vtMesh* mesh, vtError* error);
 
 /// Names of the built-in shapes, by index; NULL past the end. `vtShapeSummary` says what each is.
 VT_API const char* vtShapeName(int index);
@@ -544,6 +563,27 @@ VT_API vtGround vtDefaultGround(void);
 /// Fails with vt_errorArgument and a sentence that names field, value and range.
 VT_API vtResult vtValidateGround(const vtGround* ground, vtError* error);
 
+// -------------------------------------------------------------------------------------------- backdrop
+
+/// A picture that stands behind the scene, across the view, so that glass shows it bent: what a page has under
+/// an element of glass. A ray that has left the glass meets it at its true place; one that turns back meets
+/// the environment, which goes on being what glass reflects. It fills the frame where it is seen straight, and
+/// goes with the view. Its colours are shown as they are: neither exposure nor tone mapping changes them.
+typedef struct vtBackdrop {
+    /// Behind the view's target, in units of the scene, 0 to 1000000; with matrices, behind the middle of the
+    /// glass. 0, the default: beyond all glass, by an eighth of its box's diagonal
+    float distance;
+    /// Left, top, right and bottom of the part of the picture that fills the frame, as shares of its sides;
+    /// below 0 and above 1 it is mirrored. 0, 0, 0, 0, the default: the largest part of the frame's shape, in
+    /// the middle, like object-fit: cover
+    float part[4];
+} vtBackdrop;
+
+VT_API vtBackdrop vtDefaultBackdrop(void);
+
+/// Fails with vt_errorArgument and a sentence that names field, value and range.
+VT_API vtResult vtValidateBackdrop(const vtBackdrop* backdrop, vtError* error);
+
 // ------------------------------------------------------------------------------------------------ view
 
 /// A pinhole camera. The field of view is vertical. Pixel (i, j), j = 0 on top, looks along
@@ -885,6 +925,15 @@ VT_API vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironm
 /// vt_errorArgument where it has no pixels, vt_errorContext where it is larger than the GPU's largest
 /// texture; then the one before stays.
 VT_API vtResult vtRenderer_SetBackground(vtRenderer* renderer, const vtImage* picture, vtError* error);
+
+/// A picture behind the scene that glass shows bent, decoded (`pixels`): RGBA, sRGB, of which alpha is not
+/// looked at. It may go afterwards; NULL: the one before stays. `backdrop` NULL: there is none any more.
+/// Techniques that trace (exact and heightfield) show it, and frames with it have no tone mapping; the others
+/// do as if there were none. With vt_backgroundEnvironment it is what is seen beside the glass. Fails as
+/// vtValidateBackdrop and vtRenderer_SetBackground do, and with vt_errorArgument where there is no picture
+/// yet; then all stays.
+VT_API vtResult vtRenderer_SetBackdrop(vtRenderer* renderer, const vtImage* picture,
+                                       const vtBackdrop* backdrop, vtError* error);
 /// Puts a ground under the scene in place of the one there is; NULL: none, as at first. What falls on it is
 /// computed with the next frame of a technique that shows it, and kept until scene, environment, ground or
 /// the frame's ior, fresnel or maxEvents change. Fails as vtValidateGround does; a frame that would show it

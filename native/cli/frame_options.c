@@ -84,6 +84,7 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     }
     frame->output = options->analysis ? vt_outputAnalysis : vt_outputPicture;
     frame->fresnel = options->fresnel;
+    frame->toneMapping = options->backdrop != NULL ? vt_toneMappingNone : frame->toneMapping;
     if (options->background != NULL && vtFrame_SetBackground(frame, options->background, error) != vt_ok) {
         return vt_errorArgument;
     }

@@ -139,11 +139,11 @@ static vtResult loadFile(const Named* named, vtScene* scene, vtModel** model, vt
 }
 
 /// `triangles`: about so many, 0: as built in.
-static vtResult loadShape(const char* name, int triangles, vtScene* scene, vtError* error)
+static vtResult loadShape(const char* name, int triangles, const vtObjectSpec* spec, vtScene* scene, vtError* error)
 {
     vtMesh mesh;
     vtResult result = triangles > 0 ? vtCreateFineShape(name, (uint32_t)triangles, &mesh, error)
-                                    : vtCreateShape(name, &mesh, error);
+                                    : vtObjectSpec_CreateShape(spec, name, &mesh, error);
     if (result == vt_ok) {
         vtMaterial material = vtDefaultMaterial();
         material.opaque = strcmp(name, "plane") == 0; // it has no volume
@@ -179,8 +179,8 @@ static vtResult loadNamed(const Named* named, vtScene* scene, vtModel** model, v
         return result == vt_ok ? vtLoadReliefPattern(pattern, &def, scene, error) : result;
     }
     if (isShape(named->name)) {
-        const vtResult result = checkKind(named, vt_kindMesh, error);
-        return result == vt_ok ? loadShape(named->name, 0, scene, error) : result;
+        const vtResult result = checkKind(named, vtKindOfShape(named->name), error);
+        return result == vt_ok ? loadShape(named->name, 0, named->spec, scene, error) : result;
     }
     return loadFile(named, scene, model, error);
 }
@@ -233,7 +233,7 @@ static vtResult loadMain(const vtOptions* options, vtInput* input, vtError* erro
     if (model == NULL || options->triangles > 0) {
         const vtResult result = vtCheckReliefOptions(options, vt_kindMesh, error);
         return result == vt_ok && options->triangles > 0
-                   ? loadShape(model != NULL ? model : "", options->triangles, scene, error)
+                   ? loadShape(model != NULL ? model : "", options->triangles, NULL, scene, error)
                    : result;
     }
     // A name without dot or slash was hardly meant as a file.
@@ -297,27 +297,35 @@ static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError*
                     "heightfield and reference do\n",
                     vtTechnique_Info(technique)->id);
         }
+        if (options->backdrop != NULL && !vtTechnique_Row(technique)->traces) {
+            fprintf(stderr,
+                    "vitrine: note: technique %s shows no backdrop; exact, heightfield and reference do\n",
+                    vtTechnique_Info(technique)->id);
+        }
     }
     return vtPrepareScene(scene, technique, NULL, error);
+}
+
+static vtResult loadPicture(const char* name, vtImage* picture, uint64_t* contents, vtError* error)
+{
+    uint8_t* bytes;
+    size_t size;
+    vtResult result = vtReadFile(name, &bytes, &size, error);
+    if (result == vt_ok) {
+        *contents = vtHash(*contents, bytes, size);
+        result = vtDecodeImage(bytes, size, name, picture, error);
+        vtFree(bytes);
+    }
+    return result;
 }
 
 /// The picture that a background names, if it does.
 static vtResult loadBackground(const char* text, vtImage* picture, uint64_t* contents, vtError* error)
 {
     vtFrame frame = vtDefaultFrame();
-    uint8_t* bytes;
-    size_t size;
-    vtResult result = vtFrame_SetBackground(&frame, text, error);
-    if (result != vt_ok || frame.background != vt_backgroundPicture) {
-        return result;
-    }
-    result = vtReadFile(text, &bytes, &size, error);
-    if (result == vt_ok) {
-        *contents = vtHash(*contents, bytes, size);
-        result = vtDecodeImage(bytes, size, text, picture, error);
-        vtFree(bytes);
-    }
-    return result;
+    const vtResult result = vtFrame_SetBackground(&frame, text, error);
+    const bool isPicture = result == vt_ok && frame.background == vt_backgroundPicture;
+    return isPicture ? loadPicture(text, picture, contents, error) : result;
 }
 
 vtResult vtSetInputModel(const vtOptions* options, vtInput* input, vtError* error)
@@ -356,6 +364,9 @@ vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
     if (result == vt_ok && options->background != NULL) {
         result = loadBackground(options->background, &input->background, &input->surroundings, error);
     }
+    if (result == vt_ok && options->backdrop != NULL) {
+        result = loadPicture(options->backdrop, &input->backdrop, &input->surroundings, error);
+    }
     if (result != vt_ok) {
         vtDestroyInput(input);
         return result;
@@ -377,6 +388,7 @@ void vtDestroyInput(vtInput* input)
     vtDestroyScene(&input->scene);
     vtDestroyEnvironment(&input->environment);
     vtFree(input->background.pixels);
+    vtFree(input->backdrop.pixels);
     *input = (vtInput){0};
 }
 

@@ -7,6 +7,7 @@ typedef struct vtInput {
     vtScene scene;
     vtEnvironment environment;
     vtImage background;    ///< its pixels NULL: no picture
+    vtImage backdrop;      ///< the same
     float ior;             ///< of the command line; 0: each object's own
     vtGround ground;       ///< of the command line; below a scene that moves, at its lowest point ever
     vtMotion motion;       ///< of the scene

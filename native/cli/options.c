@@ -130,6 +130,12 @@ static const Option table[] = {
     {"background", 0, kindText, AT(background), 0, 0, "WHAT",
      "behind the scene: environment, blurred[:DEGREES], #rrggbb, a picture's file, transparent (environment)",
      RENDER | VIEW},
+    {"backdrop", 0, kindText, AT(backdrop), 0, 0, "FILE",
+     "a picture behind the scene that glass shows bent: it fills the frame and keeps its colours, glass goes on "
+     "reflecting the environment; exact, heightfield and reference show it",
+     RENDER | VIEW},
+    {"backdrop-distance", 0, kindNumber, AT(backdropDistance), 0, 1e6, "N",
+     "of it behind --target (beyond all of the scene)", RENDER | VIEW},
     GROUND("ground", "=Y",
            "a ground at this height, which catches shadows and light (at the scene's lowest point); exact, "
            "heightfield and reference show it"),
@@ -362,6 +368,9 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     const bool eyeMoves = options->turntable > 0 || options->cameraKeys != NULL;
     options->plays = !isStill && (command == vt_commandView || options->time >= 0.0f ||
                                   options->animation != NULL || (options->asksForFrames && !eyeMoves));
+    if (options->backdropDistance > 0.0f && options->backdrop == NULL) {
+        return vtFail(error, vt_errorArgument, "--backdrop-distance says something of a backdrop; add --backdrop");
+    }
     const vtGlassInfo* glass = vtFindGlass(options->glass);
     if (options->glass != NULL && glass == NULL) {
         return vtFail(error, vt_errorArgument, "--glass is '%.100s', which is unknown; see 'vitrine list'",

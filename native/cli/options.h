@@ -32,6 +32,8 @@ typedef struct vtOptions {
     const char* output;
     const char* environment;
     const char* background; ///< NULL: the environment
+    const char* backdrop;   ///< a picture's file; NULL: none
+    float backdropDistance; ///< 0: not given
     const char* technique;
     const char* root; ///< a folder around the models'
     const char *walls, *variant;

@@ -51,6 +51,10 @@ vtResult vtSession_Fill(vtSession* session, const vtOptions* options, vtError* e
     if (result == vt_ok && session->input.background.pixels != NULL) {
         result = vtRenderer_SetBackground(session->renderer, &session->input.background, error);
     }
+    if (result == vt_ok && options->backdrop != NULL) {
+        const vtBackdrop backdrop = {.distance = options->backdropDistance};
+        result = vtRenderer_SetBackdrop(session->renderer, &session->input.backdrop, &backdrop, error);
+    }
     return result;
 }
 

@@ -57,7 +57,7 @@ End noEnd(int status)
 // Where the host draws what is opaque, seen directly it covers nothing of the pixel.
 int leftToHost(bool isEye, int status)
 {
-#if defined(WITH_BACKDROP) && defined(WITH_OPAQUE)
+#if defined(WITH_HOST) && defined(WITH_OPAQUE)
     return isEye && status == VT_PATH_OPAQUE && (u_host.w & 16) != 0 ? VT_PATH_BACKGROUND : status;
 #else
     return status;
@@ -192,9 +192,14 @@ vec3 lightAlong(Path p, End end)
     width = footprintWidth(p.footprint.direction);
 #endif
 #ifdef WITH_ROUGH
-    vec3 light = surroundings(p.position, p.direction, width, p.lobe);
+    vec3 lobe = p.lobe;
 #else
-    vec3 light = surroundings(p.position, p.direction, width, vec3(0.0)); // a lost path sees it, too
+    const vec3 lobe = vec3(0.0);
+#endif
+#ifdef WITH_BACKDROP
+    vec3 light = surroundings(p.position, p.direction, width, lobe, p.footprint); // a lost path sees it, too
+#else
+    vec3 light = surroundings(p.position, p.direction, width, lobe);
 #endif
 #if defined(WITH_OPAQUE) && !defined(WITH_LOOKS)
     if (opaque.triangle != VT_NO_TRIANGLE) {
@@ -223,7 +228,7 @@ vec3 lightAlong(Path p, End end)
 #else
         light = shadeOpaque(opaque.object, at, p.direction, 0.0); // no picture is seen
 #endif
-#ifdef WITH_BACKDROP
+#ifdef WITH_HOST
         light = asHostShows(p.position, light);
 #endif
     }

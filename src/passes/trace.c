@@ -1,5 +1,6 @@
 #include "passes/trace.h"
 
+#include "base/about.h"
 #include "base/error.h"
 #include "scene/material.h"
 #include "shaders.h"
@@ -56,6 +57,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0, rough = (variant & vt_traceRough) != 0;
     const bool strict = (variant & vt_traceStrict) != 0, spectral = (variant & vt_traceSpectral) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
+    const bool backdrop = VT_IS_FULL && (variant & vt_traceBackdrop) != 0;
     const bool ground = (variant & vt_traceGround) != 0, shade = (variant & vt_traceShade) != 0;
     const vtChunk* const chunks[] = {
         photons ? &vtChunk_with_photons : NULL,
@@ -68,7 +70,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         opaque ? &vtChunk_with_opaque : NULL,
         rough ? &vtChunk_with_rough : NULL,
         records ? NULL : &vtChunk_only_heights,
-        host ? &vtChunk_with_backdrop : NULL,
+        host ? &vtChunk_with_host : NULL,
+        backdrop ? &vtChunk_with_backdrop : NULL,
         host ? &vtChunk_with_depth : NULL,
         (variant & vt_traceFootprint) != 0 ? &vtChunk_footprint : NULL,
         &vtChunk_octahedral,
@@ -94,7 +97,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         looks ? &vtChunk_cross_look : NULL,
         host ? &vtChunk_srgb : NULL,
         host ? &vtChunk_host_depth : NULL,
-        host ? &vtChunk_backdrop : NULL,
+        host ? &vtChunk_host_picture : NULL,
+        backdrop ? &vtChunk_backdrop : NULL,
         ground ? &vtChunk_ground : NULL,
         &vtChunk_surroundings,
         &vtChunk_trace_frag,
@@ -104,7 +108,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
                         .vertex = {&vtChunk_screen_vert},
                         .uniforms = {"u_branches", "u_ground", photons ? "u_groundRays" : "u_groundMatt",
                                      photons ? "u_groundBox" : "u_sun",
-                                     photons ? "u_groundLight" : "u_wavelengths"}};
+                                     photons ? "u_groundLight" : "u_wavelengths", "u_backdropPlace"}};
     vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
     return def;
 }
@@ -181,6 +185,10 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
         if ((variant & vt_traceGround) != 0) {
             vtTexture_Bind(&inputs->ground->caustics, gl, vt_samplerCaustics);
         }
+    }
+    if (VT_IS_FULL && (variant & vt_traceBackdrop) != 0) {
+        gl->Uniform4fv(program->uniforms[5], 3, inputs->backdropPlace->plane);
+        vtTexture_Bind(inputs->backdrop, gl, vt_samplerBackdrop);
     }
     if (host) {
         vtHostPicture_Bind(inputs->host, gl);

@@ -52,6 +52,11 @@ bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame)
     return VT_IS_FULL && renderer->ground.isThere && vtTechnique_Row(frame->technique)->traces;
 }
 
+bool vtRenderer_ShowsBackdrop(const vtRenderer* renderer, const vtFrame* frame)
+{
+    return VT_IS_FULL && renderer->hasBackdrop && vtTechnique_Row(frame->technique)->traces;
+}
+
 /// The variant of the trace pass.
 static vtTraceVariant chooseTrace(const vtRenderer* renderer, const vtFrame* frame)
 {
@@ -59,7 +64,9 @@ static vtTraceVariant chooseTrace(const vtRenderer* renderer, const vtFrame* fra
     const bool shades = ground && hasOpaque(renderer) && (VT_SHADES_LOOKS || !renderer->scene.hasLooks);
     const vtSun sun = vtGivenSun(&renderer->ground.ground, &renderer->environment.sun);
     return vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame) |
-           (ground ? vt_traceGround : 0) | (shades && vtSun_IsThere(&sun) ? vt_traceShade : 0);
+           (ground ? vt_traceGround : 0) |
+           (vtRenderer_ShowsBackdrop(renderer, frame) ? vt_traceBackdrop | vt_traceFootprint : 0) |
+           (shades && vtSun_IsThere(&sun) ? vt_traceShade : 0);
 }
 
 /// Is the sun of the environment a light of its own in the frame?
@@ -253,6 +260,8 @@ void vtRenderer_DrawPaths(vtRenderer* renderer, const vtFrame* frame, bool layer
                             .environment = &renderer->environment,
                             .host = &renderer->host,
                             .ground = &renderer->ground.buffer,
+                            .backdrop = &renderer->backdropPicture,
+                            .backdropPlace = &renderer->backdropPlace,
                             .branches = vtFrame_BranchCount(frame),
                             .wavelengths = vtResolveFrame(frame).wavelengths};
     findSuns(renderer, frame, inputs.sun);

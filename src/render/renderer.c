@@ -79,6 +79,7 @@ void vtDestroyRenderer(vtRenderer* renderer)
     vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
     vtTexture_Destroy(&renderer->image, gl);
     vtTexture_Destroy(&renderer->background, gl);
+    vtTexture_Destroy(&renderer->backdropPicture, gl);
     gl->DeleteBuffers(1, &renderer->uniformBuffer);
     gl->DeleteVertexArrays(1, &renderer->emptyVertexArray);
     vtProgramStore_Leave(gl->programs, gl);
@@ -173,6 +174,12 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     vtFrameUniforms uniforms;
     vtProgramList programs = {0};
     vtMakeUniforms(&renderer->scene, frame, &camera, renderer->environment.kind, &uniforms);
+    if (vtRenderer_ShowsBackdrop(renderer, frame)) {
+        const vtTexture* picture = &renderer->backdropPicture;
+        renderer->backdropPlace =
+            vtPlaceBackdrop(&renderer->backdrop, picture->width, picture->height, frame, &camera,
+                            renderer->scene.glassMin, renderer->scene.glassMax);
+    }
     vtRenderer_StartPrograms(renderer, frame, &programs);
     result = vtRenderer_ResizeTargets(renderer, frame, uniforms.size[2], uniforms.size[3], error);
     if (result == vt_ok) {
@@ -222,7 +229,7 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
                         vtSceneBuffer_TextureBytes(&renderer->scene) +
                         vtEnvironmentBuffer_Bytes(&renderer->environment) +
                         vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image) +
-                        vtTexture_Bytes(&renderer->background),
+                        vtTexture_Bytes(&renderer->background) + vtTexture_Bytes(&renderer->backdropPicture),
         .meshBytes = vtGeometryStore_MeshBytes(&renderer->scene.geometry),
         .heightBytes = vtGeometryStore_HeightBytes(&renderer->scene.geometry),
         .layerWidth = renderer->peel.depths.width,

@@ -42,6 +42,10 @@ struct vtRenderer {
     vtSlots geometrySlots, instanceSlots;
     vtEnvironmentBuffer environment;
     vtTexture background; // the picture; not there: none
+    vtTexture backdropPicture;
+    vtBackdrop backdrop;
+    bool hasBackdrop;
+    vtBackdropPlace backdropPlace; // of the frame
     // What the next frame has to agree with to go on with the samples.
     vtFrame frame;            // the last, as it was drawn
     vtFrameUniforms uniforms; // its own, of the pixel's centre
@@ -69,6 +73,13 @@ vtResult vtRenderer_ResolveFrame(vtRenderer* renderer, const vtFrame* asked, vtF
 
 /// Is a ground seen in the frame?
 bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame);
+
+/// Is the backdrop seen in the frame?
+bool vtRenderer_ShowsBackdrop(const vtRenderer* renderer, const vtFrame* frame);
+
+/// Of a page, which fills it: the texture of a backdrop's picture of that size, bound. Fails as
+/// vtRenderer_SetBackground does.
+vtResult vtRenderer_SizeBackdrop(vtRenderer* renderer, int width, int height, vtError* error);
 
 /// Starts the programs that the frame draws with.
 void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs);

@@ -81,6 +81,9 @@ vtResult vtRenderer_ResolveFrame(vtRenderer* renderer, const vtFrame* asked, vtF
     }
     *frame = vtResolveFrame(asked);
     frame->background = frame->overlay ? vt_backgroundTransparent : frame->background;
+    if (vtRenderer_ShowsBackdrop(renderer, frame)) {
+        frame->toneMapping = vt_toneMappingNone; // the picture's colours stay
+    }
     frame->view.eye = vtSub(frame->view.eye, renderer->scene.origin);
     frame->view.target = vtSub(frame->view.target, renderer->scene.origin);
     *camera = vtMakeCamera(frame);

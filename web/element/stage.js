@@ -43,6 +43,9 @@ export class Stage {
   /** @type {{model: import('./loading.js').Scene|null, environment: import('./loading.js').Source|null, background: import('./loading.js').Source|null}} */
   scene = { model: null, environment: builtIn('environment', 'studio'), background: null };
 
+  /** @type {import('./backdrop.js').Backdrop|null} once the element has had one */
+  backdrop = null;
+
   #host;
   #told;
   #core = null;
@@ -363,6 +366,7 @@ export class Stage {
   /** A technique that cannot have the scene is tried once; the scene's usual one stands in for it. */
   #applyGlass(glass, lessened = false) {
     const viewer = this.#viewer;
+    glass = { ...glass, ...this.backdrop?.apply(viewer) };
     const { technique } = glass;
     if (technique !== this.#refused?.technique) {
       const problem = viewer.setGlass({ ...glass, lessened });
@@ -388,8 +392,8 @@ export class Stage {
   /** Finds the view that shows the whole scene, or the file's camera, where the scene or the shape of the picture is new. */
   #frameObject() {
     const [width, height] = sizeOf(this.#host, 1);
-    const { orbit, cameraIndex } = this;
-    const key = `${width / height} ${orbit.wantedFieldOfView} ${cameraIndex}`;
+    const { orbit, cameraIndex } = this, isStraight = this.backdrop?.isThere;
+    const key = `${width / height} ${orbit.wantedFieldOfView} ${cameraIndex} ${isStraight}`;
     if (key === this.#framedFor) return;
     this.#framedFor = key;
     const problem = cameraIndex === null ? '' : this.#viewer.attempt('UseCamera', cameraIndex);
@@ -399,7 +403,8 @@ export class Stage {
       this.#viewer.call('ResetView', width / height);
     }
     const { eye, target, fov } = this.#viewer.info();
-    orbit.frame(eye, target, fov);
+    const [x, y, z] = target;
+    orbit.frame(isStraight && !hasCamera ? [x, y, z + Math.hypot(...eye.map((value, i) => value - target[i]))] : eye, target, fov);
     this.view.jump();
     this.#told.warned('camera', problem);
   }

@@ -28,6 +28,8 @@ typedef struct vtReferenceDef {
     /// that are not. Concerns the radiance only.
     bool fresnel;
     const vtGround* ground; ///< that the scene stands on; NULL: none. Concerns the radiance only
+    const vtBackdrop* backdrop; ///< that stands behind the scene; NULL: none. Concerns the radiance only
+    const vtImage* backdropPicture; ///< of it, decoded
     /// The radiance only, as fast as it goes: directions, events, states and reflections stay NULL. Needs an
     /// environment.
     bool onlyPicture;

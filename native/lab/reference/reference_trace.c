@@ -11,6 +11,7 @@
 #include "lab/reference/reference_scene.h"
 #include "lab/reference/reference_spectrum.h"
 #include "lab/reference/reference_threads.h"
+#include "light/backdrop.h"
 #include "scene/camera.h"
 #include "scene/material.h"
 
@@ -33,6 +34,7 @@ typedef struct Job {
     bool isRough;         ///< something is, or glass disperses
     vtGroundMap ground;   ///< its light NULL: there is none
     vtCausticMap caustics;
+    vtBackdropPlace backdrop; ///< where there is one
     int tileColumns, tileCount;
     atomic_int nextTile;
     atomic_bool failed; ///< memory is short
@@ -146,6 +148,11 @@ static vtVec3 lightOf(const Job* job, const vtReferencePath* path)
     vtVec3 light = path->light;
     if (path->state != VT_PATH_OPAQUE) { // all that comes from there is in it
         vtVec3 end = vtEnvironment_Sample(job->def->environment, path->direction);
+        if (job->def->backdrop != NULL) {
+            end = vtScale(vtBackdrop_Light(&job->backdrop, job->def->backdropPicture, path->origin,
+                                           path->direction, vtScale(end, job->exposure)),
+                          1.0f / job->exposure); // exposure is not for it
+        }
         if (job->ground.light != NULL) {
             end = vtGroundMap_Light(&job->ground, path->origin, path->direction, end);
         }
@@ -266,7 +273,10 @@ static vtResult checkDef(const vtReference* reference, const vtReferenceDef* def
         return vtFail(error, vt_errorArgument, "threads is %d; it must be 0 to %d", def->threads,
                       VT_MAX_THREADS);
     }
-    const vtResult result = def->ground != NULL ? vtValidateGround(def->ground, error) : vt_ok;
+    vtResult result = def->ground != NULL ? vtValidateGround(def->ground, error) : vt_ok;
+    if (result == vt_ok && def->backdrop != NULL) {
+        result = vtValidateBackdrop(def->backdrop, error);
+    }
     return result == vt_ok ? vtValidateFrame(def->frame, error) : result;
 }
 
@@ -382,6 +392,12 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     if (job.spectrum != NULL) {
         vtMakeSpectrum(job.spectrum);
         job.rules.spectrum = job.spectrum;
+    }
+    if (def->backdrop != NULL) {
+        vtVec3 low, high;
+        vtScene_Bounds(reference->scene, &low, &high);
+        job.backdrop = vtPlaceBackdrop(def->backdrop, def->backdropPicture->width,
+                                       def->backdropPicture->height, frame, &job.camera, low, high);
     }
     if (def->ground != NULL && def->environment != NULL) {
         result = vtReference_LightGround(reference, &job.rules, def->ground, def->environment, def->threads,
