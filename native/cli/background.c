@@ -7,12 +7,13 @@
 #include "image/image.h"
 #include "light/blur.h"
 
-vtResult vtMakeTracedBackground(const vtInput* input, const vtFrame* frame, vtTracedBackground* background, vtError* error)
+vtResult vtMakeTracedBackground(const vtInput* input, const vtFrame* frame, vtTracedBackground* background,
+                                vtError* error)
 {
     *background = (vtTracedBackground){.frame = frame,
-                             .camera = vtMakeCamera(frame),
-                             .picture = &input->background,
-                             .exposure = exp2f(frame->exposure)};
+                                       .camera = vtMakeCamera(frame),
+                                       .picture = &input->background,
+                                       .exposure = exp2f(frame->exposure)};
     return frame->background == vt_backgroundBlurred
                ? vtBlurEnvironment(&input->environment, frame->backgroundBlur, &background->blurred, error)
                : vtSucceed(error);
@@ -86,7 +87,8 @@ static vtVec3 shownLight(const vtFrame* frame, vtVec3 light)
     return (vtVec3){fminf(light.x, 1.0f), fminf(light.y, 1.0f), fminf(light.z, 1.0f)};
 }
 
-void vtTracedBackground_Show(const vtTracedBackground* background, int column, int row, vtVec3 light, float share, float* rgba)
+void vtTracedBackground_Show(const vtTracedBackground* background, int column, int row, vtVec3 light,
+                             float share, float* rgba)
 {
     const vtFrame* frame = background->frame;
     const float x = (float)column + 0.5f, y = (float)row + 0.5f;

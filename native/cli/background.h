@@ -13,9 +13,11 @@ typedef struct vtTracedBackground {
 } vtTracedBackground;
 
 /// Of a frame whose background is not the environment. Fails with vt_errorMemory.
-vtResult vtMakeTracedBackground(const vtInput* input, const vtFrame* frame, vtTracedBackground* background, vtError* error);
+vtResult vtMakeTracedBackground(const vtInput* input, const vtFrame* frame, vtTracedBackground* background,
+                                vtError* error);
 void vtDestroyTracedBackground(vtTracedBackground* background);
 
 /// A pixel as it is shown, sRGB with straight alpha, or linear light by frame->linear: `light`, linear,
 /// covers that share of it.
-void vtTracedBackground_Show(const vtTracedBackground* background, int column, int row, vtVec3 light, float share, float* rgba);
+void vtTracedBackground_Show(const vtTracedBackground* background, int column, int row, vtVec3 light,
+                             float share, float* rgba);

@@ -88,11 +88,6 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     if (options->background != NULL && vtFrame_SetBackground(frame, options->background, error) != vt_ok) {
         return vt_errorArgument;
     }
-    if (isReference && frame->background != vt_backgroundEnvironment && options->ground.isThere) {
-        return vtFail(
-            error, vt_errorArgument,
-            "technique 'reference' has the environment behind a ground; leave --background or --ground out");
-    }
     frame->samples = isReference ? 1 : options->samples; // the reference takes more
     const float aspect = (float)frame->width / (float)frame->height;
     vtResult result = chooseView(options, input, aspect, frame, error);

@@ -10,11 +10,6 @@
 #include "image/image.h"
 #include "lab/metrics/timing.h"
 
-bool vtIsReference(const vtOptions* options)
-{
-    return strcmp(options->technique, "reference") == 0;
-}
-
 static void showProgress(float share, void* userData)
 {
     vtShowProgress("tracing", share, *(const double*)userData);
@@ -88,8 +83,9 @@ static vtResult compose(const vtReferenceImage* image, const vtInput* input, con
             const size_t pixel = (size_t)row * (size_t)image->width + (size_t)column;
             const float share = image->covered[pixel];
             const vtVec3 light = vtMakeVec3(image->radiance + 3 * pixel);
-            vtTracedBackground_Show(&background, column, row, vtScale(light, share > 0.0f ? 1.0f / share : 0.0f), share,
-                            rgba + 4 * pixel);
+            vtTracedBackground_Show(&background, column, row,
+                                    vtScale(light, share > 0.0f ? 1.0f / share : 0.0f), share,
+                                    rgba + 4 * pixel);
         }
     }
     vtDestroyTracedBackground(&background);

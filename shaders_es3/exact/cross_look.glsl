@@ -98,11 +98,15 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeti
     }
 #endif
 #ifdef WITH_FOOTPRINT
-    mat2x3 steps = p.footprint.direction;
+    STEPS steps = p.footprint.direction;
     p.footprint.place = isStraight ? p.footprint.place : alongSurface(p.footprint.place, I, G);
-    mat2x3 turn = (n == G ? 0.0 : leaving ? -1.0 : 1.0) * (hit.turn * p.footprint.place);
-    mat2x3 passed = isStraight ? steps : bendFootprint(steps, I, n, turn, eta, reflected);
-    mat2x3 turned = bendFootprint(steps, I, n, turn, 1.0, true);
+    STEPS turn = (n == G ? 0.0 : leaving ? -1.0 : 1.0) * (hit.turn * p.footprint.place);
+    STEPS passed = isStraight ? steps : bendFootprint(steps, I, n, turn, eta, reflected);
+    STEPS turned = bendFootprint(steps, I, n, turn, 1.0, true);
+#ifdef WITH_FAN
+    float isBentNow = (1.0 - float(isStraight)) * (1.0 - float(reflected));
+    passed[2] += isBentNow * bentByIndex(I, n, eta, etaChange(topOf(before), topOf(next), eta));
+#endif
 #endif
     // What the first surface reflects towards the eye is kept apart, as crossSurface does; nothing lies before it that took
     // light away.

@@ -34,13 +34,13 @@ vtResult vtValidateBackdrop(const vtBackdrop* backdrop, vtError* error)
 
 /// How far in front of the eye it stands.
 static float depthOf(const vtBackdrop* backdrop, const vtFrame* frame, const vtCamera* camera, vtVec3 low,
-                     vtVec3 high)
+                     vtVec3 high, float unit)
 {
     const vtVec3 half = vtScale(vtSub(high, low), 0.5f), forward = camera->forward;
     float depth = vtDot(vtSub(vtAdd(low, half), camera->eye), forward);
     if (backdrop->distance > 0.0f) {
-        depth = frame->viewMatrix == NULL ? vtLength(vtSub(frame->view.target, frame->view.eye)) : depth;
-        depth += backdrop->distance;
+        const float target = vtLength(vtSub(frame->view.target, frame->view.eye));
+        depth = (frame->viewMatrix == NULL ? target * unit : depth) + backdrop->distance * unit;
     } else { // beyond all glass
         depth += fabsf(forward.x) * half.x + fabsf(forward.y) * half.y + fabsf(forward.z) * half.z +
                  0.25f * vtLength(half);
@@ -69,9 +69,9 @@ static void setRow(float* row, vtVec3 axis, float constant)
 }
 
 vtBackdropPlace vtPlaceBackdrop(const vtBackdrop* backdrop, int width, int height, const vtFrame* frame,
-                                const vtCamera* camera, vtVec3 low, vtVec3 high)
+                                const vtCamera* camera, vtVec3 low, vtVec3 high, float unit)
 {
-    const float depth = depthOf(backdrop, frame, camera, low, high);
+    const float depth = depthOf(backdrop, frame, camera, low, high, unit);
     const float scale = camera->orthographic ? 1.0f : depth; // of what is seen at depth 1
     const float wide = scale * (camera->high[0] - camera->low[0]),
                 tall = scale * (camera->high[1] - camera->low[1]);

@@ -11,9 +11,9 @@ typedef struct vtBackdropPlace {
 } vtBackdropPlace;
 
 /// Of a picture of that size in a valid frame, whose glass lies in the box from `low` to `high`; camera and
-/// box in the same world.
+/// box in the scene's own space, whose unit is `unit` (base/space.h).
 vtBackdropPlace vtPlaceBackdrop(const vtBackdrop* backdrop, int width, int height, const vtFrame* frame,
-                                const vtCamera* camera, vtVec3 low, vtVec3 high);
+                                const vtCamera* camera, vtVec3 low, vtVec3 high, float unit);
 
 /// Light along a ray: the picture's where the ray meets it from the front, else `beyond`. Bilinear between
 /// texel centres; beyond its sides the picture is mirrored.

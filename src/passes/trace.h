@@ -24,6 +24,7 @@ typedef enum vtTraceVariant {
     vt_traceSpectral = 2048, ///< some glass disperses
     vt_traceBackdrop = 8192, ///< a backdrop stands behind it; with vt_traceFootprint
     vt_traceShade = 4096,    ///< opaque things are lit by the sun, or by lights of files
+    vt_traceFan = 16384,     ///< colours share paths that disperse
 } vtTraceVariant;
 
 /// Do programs of materials that are not plain look for shadows? Chromium's SwiftShader compiles them for
@@ -52,8 +53,8 @@ typedef struct vtTraceInputs {
     const vtGroundBuffer* ground; ///< for a variant with vt_traceGround
     const vtTexture* backdrop;    ///< for a variant with vt_traceBackdrop: the picture
     const vtBackdropPlace* backdropPlace;
-    float sun[16];                ///< for a variant with vt_traceShade: shade.glsl's
-    int branches;                 ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
+    float sun[16];   ///< for a variant with vt_traceShade: shade.glsl's
+    int branches;    ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
     int wavelengths; ///< 1 to VT_MAX_WAVELENGTHS, that the first sample follows through glass that disperses
 } vtTraceInputs;
 

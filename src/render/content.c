@@ -450,12 +450,11 @@ vtResult vtRenderer_SizeBackdrop(vtRenderer* renderer, int width, int height, vt
 vtResult vtRenderer_SetBackdrop(vtRenderer* renderer, const vtImage* picture, const vtBackdrop* backdrop,
                                 vtError* error)
 {
-    vtResult result = vtCheckGiven(renderer, renderer, VT_ABOUT("the renderer"), error);
-    result = result == vt_ok && backdrop != NULL ? vtValidateBackdrop(backdrop, error) : result;
+    vtResult result = backdrop != NULL ? vtValidateBackdrop(backdrop, error) : vt_ok;
+    result = result == vt_ok ? beginChange(renderer, renderer, VT_ABOUT("the renderer"), error) : result;
     if (result != vt_ok) {
         return result;
     }
-    vtTakeState(&renderer->gl);
     if (backdrop == NULL) {
         vtTexture_Destroy(&renderer->backdropPicture, &renderer->gl);
     } else if (picture != NULL) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/about.h"
+#include "base/error.h"
 #include "image/image.h"
 #include "render/renderer.h"
 #include "technique/technique.h"
@@ -54,7 +55,7 @@ bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame)
 
 bool vtRenderer_ShowsBackdrop(const vtRenderer* renderer, const vtFrame* frame)
 {
-    return VT_IS_FULL && renderer->hasBackdrop && vtTechnique_Row(frame->technique)->traces;
+    return VT_WITH_BACKDROP && renderer->hasBackdrop && vtTechnique_Row(frame->technique)->traces;
 }
 
 /// The variant of the trace pass.
@@ -162,14 +163,34 @@ static vtResult resizeLayers(vtRenderer* renderer, const vtFrame* frame, int lay
                            : result;
 }
 
+vtResult vtRenderer_CheckSize(const vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    const vtTexture* light =
+        vtTechnique_Row(frame->technique)->traces ? &renderer->trace.radiance : &renderer->shade.radiance;
+    GLint largest = frame->width > frame->height ? frame->width : frame->height;
+    if (light->width != frame->width || light->height != frame->height) {
+        renderer->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    }
+    return frame->width <= largest && frame->height <= largest
+               ? vt_ok
+               : vtFail(
+                     error, vt_errorContext,
+                     "frame: %d x %d is more than this GPU's largest texture (%d); ask for a smaller picture",
+                     frame->width, frame->height, largest);
+}
+
 vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
                                   vtError* error)
 {
     const vtGL* gl = &renderer->gl;
-    vtResult result = vtTechnique_Row(frame->technique)->traces
-                          ? vtTracePass_Resize(&renderer->trace, gl, chooseTrace(renderer, frame),
-                                               frame->width, frame->height, error)
-                          : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
+    vtResult result = vtRenderer_CheckSize(renderer, frame, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    result = vtTechnique_Row(frame->technique)->traces
+                 ? vtTracePass_Resize(&renderer->trace, gl, chooseTrace(renderer, frame), frame->width,
+                                      frame->height, error)
+                 : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
     if (result == vt_ok && (hasOpaque(renderer) || vtTrace_IsRough(&renderer->scene, frame))) {
         result = vtEnvironmentBuffer_Light(&renderer->environment, gl, partsSun(renderer, frame), error);
     }

@@ -325,7 +325,8 @@ vtResult vtObjectSpec_Check(const vtObjectSpec* spec, vtObjectKind kind, const c
     for (int key = 0; key < vt_keyCount; ++key) {
         const bool ofRelief = key >= vt_keyRelief && key <= vt_keySamples;
         const bool ofPanel = key >= vt_keyWidth && key <= vt_keyThickness;
-        if (isGiven(spec, (vtObjectKey)key) && ((ofRelief && !isRelief) || (ofPanel && kind != vt_kindPanel))) {
+        if (isGiven(spec, (vtObjectKey)key) &&
+            ((ofRelief && !isRelief) || (ofPanel && kind != vt_kindPanel))) {
             return vtFail(error, vt_errorArgument,
                           "%s '%.200s' is no %s, so the key '%s' says nothing to it; leave it out", option,
                           spec->name, ofPanel ? "panel" : "relief", keys[key].name);
@@ -341,7 +342,7 @@ vtResult vtObjectSpec_Check(const vtObjectSpec* spec, vtObjectKind kind, const c
 
 vtObjectKind vtKindOfShape(const char* name)
 {
-    return VT_IS_FULL && strcmp(name, "panel") == 0 ? vt_kindPanel : vt_kindMesh;
+    return VT_WITH_BACKDROP && strcmp(name, "panel") == 0 ? vt_kindPanel : vt_kindMesh;
 }
 
 vtResult vtObjectSpec_CreateShape(const vtObjectSpec* spec, const char* name, vtMesh* mesh, vtError* error)

@@ -4,10 +4,10 @@
 #include "shapes/shapes.h"
 
 enum {
-    cornerParts = 16,                   // of a corner's quarter circle
-    bevelParts = 12,                    // of the edge's quarter ellipse
-    columns = 4 * (cornerParts + 1),    // of a ring about the pane
-    ringCount = 2 * (bevelParts + 1),   // from the front's flat middle to the back's
+    cornerParts = 16,                 // of a corner's quarter circle
+    bevelParts = 12,                  // of the edge's quarter ellipse
+    columns = 4 * (cornerParts + 1),  // of a ring about the pane
+    ringCount = 2 * (bevelParts + 1), // from the front's flat middle to the back's
 };
 
 vtPanelDef vtDefaultPanelDef(void)
@@ -20,8 +20,10 @@ vtResult vtCheckPanel(const vtPanelDef* def, vtError* error)
     const struct {
         const char* name;
         float value, least;
-    } numbers[] = {{"width", def->width, VT_MIN_PANEL},   {"height", def->height, VT_MIN_PANEL},
-                   {"radius", def->radius, 0.0f},         {"bevel", def->bevel, 0.0f},
+    } numbers[] = {{"width", def->width, VT_MIN_PANEL},
+                   {"height", def->height, VT_MIN_PANEL},
+                   {"radius", def->radius, 0.0f},
+                   {"bevel", def->bevel, 0.0f},
                    {"thickness", def->thickness, VT_MIN_PANEL}};
     for (int i = 0; i < 5; ++i) {
         if (!(numbers[i].value >= numbers[i].least && numbers[i].value <= VT_MAX_PANEL)) { // NaN fails
@@ -43,7 +45,8 @@ static void addRing(vtShapeData* shape, const vtPanelDef* def, float radius, flo
         const int corner = i / (cornerParts + 1), part = i % (cornerParts + 1);
         const float angle = 0.5f * VT_PI * (float)part / cornerParts;
         // Along the sides exactly: where they have no length the corners' ends are one.
-        const float c = part == cornerParts ? 0.0f : cosf(angle), s = part == cornerParts ? 1.0f : sinf(angle);
+        const float c = part == cornerParts ? 0.0f : cosf(angle),
+                    s = part == cornerParts ? 1.0f : sinf(angle);
         const float x = corner == 0 ? c : corner == 1 ? -s : corner == 2 ? -c : s;
         const float y = corner == 0 ? s : corner == 1 ? c : corner == 2 ? -s : -c;
         const float right = corner == 0 || corner == 3 ? 1.0f : -1.0f, above = corner < 2 ? 1.0f : -1.0f;

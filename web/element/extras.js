@@ -1,13 +1,10 @@
-// What is loaded once an element asks for it: hotspots, the hand that shows that the view can be turned, the picture behind.
+// What is loaded once an element asks for it: hotspots, and the hand that shows that the view can be turned.
 
 export class Extras {
-  /** @type {Promise<void>|null} it is there, or cannot be */
-  backdropShown = null;
   #host;
   #stage;
   #told;
   #hotspots = null; // promise of them
-  #backdrop = null; // the same
   #prompt = null; // 'waiting', it, or 'seen'
   #timer = 0;
 
@@ -32,18 +29,6 @@ export class Extras {
       return { place: () => [sentence] };
     });
     this.#told.say('hotspots', (await this.#hotspots).place(this.#stage.view).join('. '));
-  }
-
-  /** Of Backdrop.show. */
-  showBackdrop(wish, distance) {
-    if (wish || this.#backdrop !== null) this.backdropShown = this.#showBackdrop(wish, distance);
-  }
-
-  async #showBackdrop(wish, distance) {
-    this.#backdrop ??= import('./backdrop.js').then(({ Backdrop }) => new Backdrop(this.#host, this.#stage, (sentence, reason) => (sentence ? this.#told.failed('backdrop', sentence, reason) : this.#told.say('backdrop', ''))), (reason) => {
-      this.#told.say('backdrop', this.#lacks('backdrop', reason));
-    });
-    await (await this.#backdrop)?.show(wish, distance);
   }
 
   /** The hand comes after a while that nobody has touched the view. @param {object} values of the attributes @param {boolean} moves not where the visitor prefers reduced motion */

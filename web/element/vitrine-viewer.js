@@ -49,7 +49,6 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   });
   #source = 'none'; // of the last motion
   #extras = new Extras(this, this.#stage, { say: (...values) => this.#say(...values), failed: (...values) => this.#fail('loadfailure', ...values) });
-  #backdrop = null; // given as an object
   #animation = null; // animation.js's, once files have some
   #isAnimating = false; // it is being loaded
   #isFull = false; // it needs vitrine-full
@@ -104,17 +103,6 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   /** Names of the animations that the files shown have, for animation-name. */
   get availableAnimations() {
     return this.#animation?.names ?? [];
-  }
-
-  /** As the attribute has it, or what has the picture. @type {string|HTMLImageElement|HTMLVideoElement|HTMLCanvasElement|OffscreenCanvas|ImageBitmap} */
-  get backdrop() {
-    return this.#backdrop ?? this.getAttribute('backdrop') ?? '';
-  }
-
-  set backdrop(picture) {
-    this.#backdrop = typeof picture === 'string' ? null : picture;
-    if (this.#backdrop === null) this.setAttribute('backdrop', picture ?? '');
-    this.#update('backdrop');
   }
 
   /** Seconds of the animation that is played; 0 without any. */
@@ -273,7 +261,6 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   }
 
   attributeChangedCallback(name, before, after) {
-    if (name === 'backdrop') this.#backdrop = null;
     if (before !== after) this.#update(name);
   }
 
@@ -359,9 +346,8 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
     this.#updateSpin();
     this.#updateAnimation();
-    if (isFirst || changed.has('backdrop') || changed.has('backdrop-distance')) this.#extras.showBackdrop(this.backdrop, values.backdropDistance);
     stage.invalidate();
-    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'ground', 'shadow-intensity', 'autoplay', 'animation-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background', 'backdrop'].some((name) => changed.has(name))) this.#load();
+    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'ground', 'shadow-intensity', 'autoplay', 'animation-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */
@@ -424,7 +410,6 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
     if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, scene))) return;
     try {
-      await this.#extras.backdropShown; // the first frame shall have it
       const loaded = await loadCore(VitrineViewer, this.#needsFull);
       await ownTask();
       this.#stage.core = loaded;
@@ -435,8 +420,8 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
 
   /** The larger core, that has a ground and animations; who has it keeps it. */
   get #needsFull() {
-    const { ground, shadowIntensity, autoplay, animationName, src: model, objects } = this.#values;
-    this.#isFull ||= Boolean(this.backdrop) || /\bpanel\b/.test(model + objects) || ground || shadowIntensity > 0 || autoplay || animationName !== '' || this.#stage.isAnimated;
+    const { ground, shadowIntensity, autoplay, animationName } = this.#values;
+    this.#isFull ||= ground || shadowIntensity > 0 || autoplay || animationName !== '' || this.#stage.isAnimated;
     return this.#isFull;
   }
 

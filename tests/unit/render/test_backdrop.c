@@ -1,5 +1,5 @@
-// What glass shows of a picture behind the scene: exact colours, the shift that a slab makes, and what the reference
-// sees.
+// What glass shows of a picture behind the scene: exact colours, the shift that a slab makes, and what the
+// reference sees.
 #include <string.h>
 
 #include "rendering.h"
@@ -9,7 +9,8 @@ enum { pictureSide = 256 };
 /// Red grows to the right and green downwards, a step a texel.
 static vtImage makeRamp(void)
 {
-    vtImage picture = {.pixels = malloc(4 * pictureSide * pictureSide), .width = pictureSide, .height = pictureSide};
+    vtImage picture = {
+        .pixels = malloc(4 * pictureSide * pictureSide), .width = pictureSide, .height = pictureSide};
     assert_non_null(picture.pixels);
     for (int i = 0; i < pictureSide * pictureSide; ++i) {
         const uint8_t texel[4] = {(uint8_t)(i % pictureSide), (uint8_t)(i / pictureSide), 77, 255};
@@ -76,7 +77,8 @@ static void aPanelLeavesThePictureAsItIs(void** state)
     int bent = 0;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            const float x = fabsf((float)column + 0.5f - 64.0f) / 64.0f, y = fabsf((float)row + 0.5f - 64.0f) / 64.0f;
+            const float x = fabsf((float)column + 0.5f - 64.0f) / 64.0f,
+                        y = fabsf((float)row + 0.5f - 64.0f) / 64.0f;
             const bool isFlat = (x < 0.64f && y < 0.39f) || (x < 0.54f && y < 0.49f);
             if (isFlat || x > 0.76f || y > 0.61f) { // its flat middle, and beside it
                 assertRamp(fixture, column, row, 0.0f);
@@ -101,12 +103,14 @@ static void aSlabShiftsThePicture(void** state)
     Fixture* fixture = *state;
     vtError error;
     vtMesh mesh;
-    const vtPanelDef def = {.width = 1.9f, .height = 1.9f, .radius = 0.05f, .bevel = 0.01f, .thickness = 0.4f};
+    const vtPanelDef def = {
+        .width = 1.9f, .height = 1.9f, .radius = 0.05f, .bevel = 0.01f, .thickness = 0.4f};
     const float degrees = 35.0f, angle = degrees * VT_PI / 180.0f, within = asinf(sinf(angle) / 1.5f);
     assert_ok(vtCreatePanel(&def, &mesh, &error), error);
     setMesh(fixture, &mesh, degrees);
     setEnvironment(fixture->renderer, "studio");
-    // The textbook's shift of a ray, whatever the distance; the ray leaves on the side that the slab leans to.
+    // The textbook's shift of a ray, whatever the distance; the ray leaves on the side that the slab leans
+    // to.
     const float shift = def.thickness * sinf(angle - within) / cosf(within);
     for (int i = 0; i < 2; ++i) {
         const vtBackdrop backdrop = {.distance = i == 0 ? 2.0f : 40.0f};
@@ -130,7 +134,8 @@ static void aPartOfThePictureFillsTheFrame(void** state)
     vtFrame frame = smallFrame(vt_techniqueExact); // in perspective
     frame.toneMapping = vt_toneMappingNeutral;
     draw(fixture, &frame);
-    const uint8_t *left = fixture->pixels, *right = left + 4 * (side - 1), *lower = left + 4 * (side - 1) * side;
+    const uint8_t *left = fixture->pixels, *right = left + 4 * (side - 1),
+                  *lower = left + 4 * (side - 1) * side;
     assert_near((float)left[0], 64.0f, 1.0f);
     assert_near((float)right[0], 191.0f, 1.0f);
     assert_near((float)left[1], 127.0f, 1.5f); // mirrored above its top
@@ -167,10 +172,8 @@ static void theReferenceSeesTheSame(void** state)
         skip();
     }
     vtImage picture = makeRamp();
-    const vtReferenceDef def = {.frame = &frame,
-                                .environment = &environment,
-                                .backdrop = &backdrop,
-                                .backdropPicture = &picture};
+    const vtReferenceDef def = {
+        .frame = &frame, .environment = &environment, .backdrop = &backdrop, .backdropPicture = &picture};
     assert_ok(vtReference_Trace(reference, &def, &truth, &error), error);
     static uint8_t wanted[4 * side * side];
     vtReference_ToSrgb(&truth, wanted);

@@ -116,8 +116,8 @@ static int intersectLine(const vtMesh* mesh, float height, float depth, float* h
 static void testNames(void** state)
 {
     (void)state;
-    const char* const names[] = {"sphere",  "torus", "knot",  "goblet",  "bottle",
-                                 "diamond", "cube",  "plane", "tumbler", "water", "panel"};
+    const char* const names[] = {"sphere", "torus", "knot",    "goblet", "bottle", "diamond",
+                                 "cube",   "plane", "tumbler", "water",  "panel"};
     for (int i = 0; i < 11; ++i) {
         assert_string_equal(vtShapeName(i), names[i]);
         assert_true(strlen(vtShapeSummary(i)) > 10);
@@ -215,14 +215,16 @@ static void testTopology(void** state)
 /// A slice's area is a rectangle's less its corners', summed over the thickness in fine steps.
 static double volumeOfPanel(const vtPanelDef* def)
 {
-    const double most = 0.5 * fmin((double)def->width, (double)def->height), half = 0.5 * (double)def->thickness;
+    const double most = 0.5 * fmin((double)def->width, (double)def->height),
+                 half = 0.5 * (double)def->thickness;
     const double radius = fmin((double)def->radius, most), bevel = fmin((double)def->bevel, most);
     const double drop = fmin(bevel, half);
     double volume = 0.0;
     const int steps = 20000;
     for (int i = 0; i < steps; ++i) {
         const double z = (i + 0.5) / steps * half, above = fmax(z - (half - drop), 0.0);
-        const double inset = drop > 0.0 ? bevel * (1.0 - sqrt(fmax(1.0 - above * above / (drop * drop), 0.0))) : 0.0;
+        const double inset =
+            drop > 0.0 ? bevel * (1.0 - sqrt(fmax(1.0 - above * above / (drop * drop), 0.0))) : 0.0;
         const double round = fmax(radius - inset, 0.0);
         const double area = ((double)def->width - 2.0 * inset) * ((double)def->height - 2.0 * inset) -
                             (4.0 - (double)VT_PI) * round * round;
