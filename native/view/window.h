@@ -18,18 +18,13 @@ vtGetProcAddressFcn* vtWindow_GetProcAddress(void);
 /// changed or the window was resized since the last call.
 bool vtWindow_Poll(vtWindow* window, vtView* view);
 
-/// What the keys of an animation were pressed for since the last call, and how it was dragged.
+/// What the keys of an animation were pressed for since the last call.
 typedef struct vtWindowKeys {
-    int steps;    ///< right arrow 1, left arrow -1
-    bool pause;   ///< space, an odd number of times
-    bool start;   ///< home
-    double scrub; ///< along the window with the right button; 1 is its width
+    int steps;  ///< right arrow 1, left arrow -1
+    bool pause; ///< space, an odd number of times
+    bool start; ///< home
 } vtWindowKeys;
 vtWindowKeys vtWindow_TakeKeys(vtWindow* window);
-
-/// The file that was dropped on the window since the last call, for the caller to free; NULL: none. Of
-/// several it is the model, which may have come with its buffers and pictures.
-char* vtWindow_TakeDropped(vtWindow* window);
 
 void vtWindow_SetTitle(vtWindow* window, const char* title);
 

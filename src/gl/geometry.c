@@ -40,26 +40,24 @@ static uint64_t trianglesOf(const vtGeometryStore* store)
 }
 
 /// Copies what `from` holds into the first rows of `to`, of the same width.
-static vtResult copyRows(const vtGL* gl, const vtTexture* from, const vtTexture* to, vtError* error)
+static void copyRows(const vtGL* gl, const vtTexture* from, const vtTexture* to)
 {
     GLuint framebuffer = 0;
-    const vtResult result =
-        vtMakeFramebuffer(gl, "records", &(vtAttachment){from, 0}, 1, NULL, &framebuffer, error);
-    if (result == vt_ok) {
+    vtError error;
+    if (vtMakeFramebuffer(gl, "records", &(vtAttachment){from, 0}, 1, NULL, &framebuffer, &error) == vt_ok) {
         vtTexture_Bind(to, gl, 0);
         gl->CopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, from->width, from->height);
     }
     vtDestroyFramebuffers(gl, &framebuffer, 1);
-    return result;
 }
 
 /// A texture of at least so many records that holds what the one before held. It grows by half of itself at
-/// least. On failure it is as before.
-static vtResult growTexture(vtTexture* texture, const vtGL* gl, uint64_t records, vtError* error)
+/// least.
+static void growTexture(vtTexture* texture, const vtGL* gl, uint64_t records)
 {
     const uint64_t rows = (records + VT_RECORDS_A_ROW - 1) / VT_RECORDS_A_ROW;
     if (texture->name != 0 && rows <= (uint64_t)texture->height) {
-        return vt_ok;
+        return;
     }
     vtTexture before = *texture;
     *texture = (vtTexture){0};
@@ -67,11 +65,10 @@ static vtResult growTexture(vtTexture* texture, const vtGL* gl, uint64_t records
     wanted = wanted > rows ? wanted : rows;
     wanted = wanted * VT_RECORDS_A_ROW > mostRecords(gl) ? rows : wanted;
     vtTexture_SizeRecords(texture, gl, (uint32_t)(wanted * VT_RECORDS_A_ROW));
-    vtResult result = before.name != 0 ? copyRows(gl, &before, texture, error) : vt_ok;
-    result = result == vt_ok ? vtCheckGL(gl, "making room for triangles", error) : result;
-    vtTexture_Destroy(result == vt_ok ? &before : texture, gl);
-    *texture = result == vt_ok ? *texture : before;
-    return result;
+    if (before.name != 0) {
+        copyRows(gl, &before, texture);
+        vtTexture_Destroy(&before, gl);
+    }
 }
 
 static vtRecordRange rangeOf(const vtGeometryBuffer* item, bool attributes)
@@ -136,10 +133,9 @@ static vtResult takeRange(vtGeometryStore* store, const vtGL* gl, const vtMesh* 
     if (at + count > mostRecords(gl)) {
         return failTooMany(gl, mesh, trianglesOf(store) + mesh->indexCount / 3, error);
     }
-    const vtResult result =
-        growTexture(attributes ? &store->attributes : &store->records, gl, at + count, error);
-    *range = (vtRecordRange){(uint32_t)at, result == vt_ok ? count : 0};
-    return result;
+    growTexture(attributes ? &store->attributes : &store->records, gl, at + count);
+    *range = (vtRecordRange){(uint32_t)at, count};
+    return vt_ok;
 }
 
 // ----------------------------------------------------------------------------------------------- upload
@@ -224,7 +220,7 @@ static vtResult uploadAttributes(vtGeometryStore* store, const vtGL* gl, const v
 
 static void copyPlan(vtGeometryBuffer* item, const vtHierarchy* hierarchy)
 {
-    item->space = hierarchy->space;
+    item->origin = hierarchy->origin;
     item->gridLow = hierarchy->gridLow;
     item->gridScale = hierarchy->gridScale;
     item->builds = hierarchy->builds;
@@ -268,7 +264,7 @@ static vtResult uploadTriangles(vtGeometryStore* store, const vtGL* gl, const vt
         result = uploadAttributes(store, gl, mesh, hierarchy, item->attributes, error);
     }
     if (result == vt_ok) {
-        result = vtMeshBuffer_Create(&item->vertices, gl, mesh, &item->space, error);
+        result = vtMeshBuffer_Create(&item->vertices, gl, mesh, item->origin, error);
     }
     if (result == vt_ok) {
         vtTexture_SetRecords(&store->records, gl, item->records.first, item->records.count,
@@ -310,11 +306,11 @@ static void freeItem(vtGeometryBuffer* item, const vtGL* gl)
 static vtResult upload(vtGeometryStore* store, const vtGL* gl, const vtMesh* mesh, vtGeometryUse use,
                        vtGeometryBuffer* item, vtError* error)
 {
-    *item = (vtGeometryBuffer){.isThere = true, .space = vtOuterSpace()};
-    vtResult result =
-        growTexture(&store->records, gl, 0, error); // shaders may read a texel whatever there is
-    result = result == vt_ok ? growTexture(&store->attributes, gl, 0, error) : result;
-    if (result == vt_ok && use.any && mesh->indexCount > 0) {
+    vtResult result = vt_ok;
+    *item = (vtGeometryBuffer){.isThere = true};
+    growTexture(&store->records, gl, 0); // shaders may read a texel whatever there is
+    growTexture(&store->attributes, gl, 0);
+    if (use.any && mesh->indexCount > 0) {
         vtHierarchy built;
         const vtHierarchy* hierarchy;
         result = findHierarchy(gl, mesh, &built, &hierarchy, error);
@@ -387,8 +383,11 @@ static vtResult prepareAll(vtGeometryStore* store, const vtGL* gl, const vtMesh*
             result = records <= mostRecords(gl) ? vt_ok : failTooMany(gl, &meshes[i], triangles, error);
         }
     }
-    result = result == vt_ok ? growTexture(&store->records, gl, records, error) : result;
-    return result == vt_ok ? growTexture(&store->attributes, gl, attributes, error) : result;
+    if (result == vt_ok) {
+        growTexture(&store->records, gl, records);
+        growTexture(&store->attributes, gl, attributes);
+    }
+    return result;
 }
 
 vtResult vtGeometryStore_AddAll(vtGeometryStore* store, const vtGL* gl, const vtMesh* meshes, uint32_t count,
@@ -423,7 +422,7 @@ vtResult vtGeometryStore_Update(vtGeometryStore* store, const vtGL* gl, uint32_t
                       store->shapes[index].indexCount == mesh->indexCount &&
                       hadHeights == (mesh->heights != NULL) && mesh->tangents == NULL &&
                       (item->attributes.count == 0 || item->builds == hierarchy->builds) &&
-                      vtMeshBuffer_Update(&item->vertices, gl, mesh, &hierarchy->space);
+                      vtMeshBuffer_Update(&item->vertices, gl, mesh, hierarchy->origin);
     if (fits) {
         copyPlan(item, hierarchy);
         item->overlaps = vtHierarchy_Overlaps(hierarchy);

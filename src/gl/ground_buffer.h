@@ -12,8 +12,9 @@ typedef struct vtGroundBuffer {
     float matt[8];      ///< its colour, 1: it is matt; irradiance, but for lights of files; 0
 } vtGroundBuffer;
 
-/// Fails with vt_errorMemory.
-vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGroundMap* map, vtError* error);
+/// `origin`: of the world that shaders know, in the map's. Fails with vt_errorMemory.
+vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGroundMap* map, vtVec3 origin,
+                            vtError* error);
 /// The light on opaque things. Fails with vt_errorContext where the GPU has no texture of that size.
 vtResult vtGroundBuffer_SetCaustics(vtGroundBuffer* buffer, const vtGL* gl, const vtCausticMap* map,
                                     vtError* error);

@@ -13,7 +13,8 @@ enum { mostSides = 64 };
 
 static void readCorner(const vtHierarchyBuild* build, size_t corner, float* position)
 {
-    vtGrid_Enter(&build->grid, build->mesh->positions + 3 * (size_t)build->mesh->indices[corner], position);
+    vtSubtract(build->mesh->positions + 3 * (size_t)build->mesh->indices[corner], build->grid.origin,
+               position);
 }
 
 static void readTriangle(const vtHierarchyBuild* build, uint32_t triangle, float p[3][3])
@@ -354,8 +355,8 @@ bool vtPhase_Pairs(vtHierarchyBuild* build, int64_t* work)
         vtBox_Clear(&item->box);
         for (int k = 0; k < 4; ++k) {
             float p[3];
-            vtGrid_Enter(&build->grid, build->mesh->positions + 3 * (size_t)build->pairs[number].corners[k],
-                         p);
+            vtSubtract(build->mesh->positions + 3 * (size_t)build->pairs[number].corners[k],
+                       build->grid.origin, p);
             vtBox_Grow(&item->box, p, p);
         }
     }

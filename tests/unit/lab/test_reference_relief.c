@@ -28,8 +28,7 @@ typedef struct Counts {
 static RTCScene createScene(RTCDevice device, const vtMesh* mesh, bool asTriangles)
 {
     RTCScene scene = rtcNewScene(device);
-    const vtSpace space = vtOuterSpace();
-    assert_true(asTriangles ? vtFillScene(device, scene, mesh, &space)
+    assert_true(asTriangles ? vtFillScene(device, scene, mesh)
                             : vtFillReliefScene(device, scene, mesh->heights));
     return scene;
 }
