@@ -122,13 +122,8 @@ export class Stage {
   /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source|import('./loading.js').Scene} source */
   show(kind, source) {
     if (kind === 'model') this.#coming = null;
-    if (this.#viewer === null || this.#viewer.isLost || this.#awaitsFull(source)) this.#pending[kind] = source;
+    if (this.#viewer === null || this.#viewer.isLost || (isAnimated(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
     else this.#upload(kind, source);
-  }
-
-  /** Is the source for the viewer of the larger core, which comes yet? */
-  #awaitsFull(source) {
-    return isAnimated(source) && !this.#viewer.isFull;
   }
 
   /** There is no model any more. */
