@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and passes every test. Exit code 0: all passed.
-#   ./test.sh         about a quarter of an hour
-#   ./test.sh --all   also what is long: nothing left out under sanitizers, deliberate faults that tests must see, ten
-#                     minutes of hostile glTF files, films, job files of schedulers, Firefox, the browser's picture
-#                     against its rivals'
+#   ./test.sh                 about a quarter of an hour
+#   ./test.sh --all           also what is long: nothing left out under sanitizers, static analysis, coverage, deliberate
+#                             faults that tests must see, ten minutes of hostile input, films, job files of schedulers,
+#                             Firefox, a minute of animated glass, the browser's picture against its rivals'
+#   ./test.sh --fuzz SECONDS  hostile input alone, for so long
 set -eu
 cd "$(dirname "$0")"
 
@@ -11,8 +12,9 @@ all=false
 case ${1:-} in
   "") ;;
   --all) all=true ;;
-  --help | -h) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) echo "test.sh: unknown option '$1'; it takes --all" >&2; exit 1 ;;
+  --fuzz) exec bash scripts/fuzz.sh "${2:-}" ;;
+  --help | -h) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) echo "test.sh: unknown option '$1'; it takes --all or --fuzz SECONDS" >&2; exit 1 ;;
 esac
 
 if $all; then
@@ -42,24 +44,21 @@ echo "== tests, release"
 ctest --preset release -j 2
 
 if $all; then
+  bash scripts/fuzz.sh 600
+  echo "== static analysis"
+  bash scripts/analyse.sh
+  echo "== coverage"
+  bash scripts/coverage.sh
   echo "== deliberate faults"
   bash scripts/mutants.sh
-  if command -v clang >/dev/null; then
-    echo "== hostile glTF files, ten minutes"
-    cmake -S . -B build/fuzz -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DVT_SANITIZE=ON -DVT_FUZZ=ON \
-      -DBUILD_TESTING=ON >/dev/null
-    cmake --build build/fuzz --target fuzz_gltf -j 2
-    mkdir -p build/fuzz/corpus
-    build/fuzz/tests/fuzz_gltf -max_total_time=600 -rss_limit_mb=4096 -print_final_stats=1 build/fuzz/corpus tests/cases
-  else
-    echo "== hostile glTF files: left out, clang is not installed"
-  fi
   echo "== job files of schedulers"
   npm --prefix tests/many-machines install --no-audit --no-fund --loglevel=error
   node --test tests/many-machines/many-machines.test.mjs
   if command -v emcmake >/dev/null; then
     echo "== Firefox"
     node --test tests/firefox.test.mjs
+    echo "== a minute of animated glass"
+    node --test tests/playing.test.mjs
     echo "== the browser's picture against its rivals'"
     npm --prefix tests/bench install --no-audit --no-fund --loglevel=error
     node tests/bench/glass.mjs --rounds 3

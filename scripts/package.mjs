@@ -70,6 +70,17 @@ ${readFileSync('/usr/share/common-licenses/Apache-2.0', 'utf8')}
 ${readFileSync('/usr/share/doc/libzstd1/copyright', 'utf8')}`;
 writeFileSync(join(folder, 'NOTICES.txt'), readFileSync(join(web, 'NOTICES.txt'), 'utf8') + licences.join('') + apache);
 
+// What others wrote of it, and its versions, for those who watch for advisories (CycloneDX 1.5).
+const versionOf = (name) => JSON.parse(readFileSync(join(root, 'tests/node_modules', name, 'package.json'), 'utf8')).version;
+const debian = (name) => execFileSync('dpkg-query', ['-W', '-f', '${Version}', name]).toString();
+const component = (purl, name, itsVersion, licence, description) => ({ type: 'library', name, version: itsVersion, description, licenses: [{ license: { id: licence } }], purl: `pkg:${purl}/${name}@${encodeURIComponent(itsVersion)}` });
+const components = [
+  ...[['libtinygltf-dev', 'MIT', 'reads glTF'], ['nlohmann-json3-dev', 'MIT', 'reads JSON'], ['emscripten', 'MIT', 'compiler, with its C and C++ libraries']].map(([name, ...more]) => component('deb/debian', name, debian(name), ...more)),
+  ...[['parse-exr', 'MIT', 'element/exr.js'], ['fflate', 'MIT', 'element/exr.js'], ['meshoptimizer', 'MIT', 'element/meshopt.js'], ['draco3dgltf', 'Apache-2.0', 'element/draco.wasm'], ['three', 'MIT', 'element/basis.wasm, its transcoder of Basis Universal (Apache-2.0)']].map(([name, ...more]) => component('npm', name, versionOf(name), ...more)),
+];
+const bill = { bomFormat: 'CycloneDX', specVersion: '1.5', version: 1, metadata: { component: { type: 'library', name: 'vitrine-viewer', version, licenses: [{ license: { id: 'MIT' } }], purl: `pkg:npm/vitrine-viewer@${version}` } }, components };
+writeFileSync(join(folder, 'sbom.cdx.json'), `${JSON.stringify(bill, null, 2)}\n`);
+
 const decodersBeside = {
   name: 'decoders beside',
   setup({ onResolve }) {
@@ -122,7 +133,7 @@ writeFileSync(
       sideEffects: ['./element/vitrine-viewer.js', './vitrine-viewer.bundle.js'],
       peerDependencies: { '@react-three/fiber': '>=8', react: '>=18', three: '>=0.180' },
       peerDependenciesMeta: Object.fromEntries(['@react-three/fiber', 'react', 'three'].map((name) => [name, { optional: true }])),
-      files: ['element', 'three', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-full.js', 'vitrine-full.wasm', 'vitrine-three.js', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', '*.d.ts', 'custom-elements.json', 'NOTICES.txt'],
+      files: ['element', 'three', 'vitrine-core.js', 'vitrine-core.wasm', 'vitrine-full.js', 'vitrine-full.wasm', 'vitrine-three.js', 'vitrine-three.wasm', 'vitrine-shaders.txt', 'vitrine-viewer.bundle.js', '*.d.ts', 'custom-elements.json', 'NOTICES.txt', 'sbom.cdx.json'],
       customElements: 'custom-elements.json',
       keywords: ['glass', 'refraction', 'webgl', 'wasm', 'gltf', 'custom-element', 'web-components'],
     },

@@ -63,7 +63,7 @@ typedef enum vtResult {
     vt_errorFormat,   ///< a file is not what it should be
     vt_errorGeometry, ///< the mesh cannot be drawn (no triangles, bad indices, NaN)
     vt_errorContext,  ///< the GL context is missing, too old, or failed
-    vt_errorMemory,   ///< an allocation failed
+    vt_errorMemory,   ///< an allocation failed, or would go beyond vtLimits
 } vtResult;
 
 /// Why a call failed: one sentence that names the thing, the value and the remedy. Every function that
@@ -98,6 +98,22 @@ VT_API void* vtAllocate(size_t count, size_t size);
 
 /// Frees what vtAllocate or the library gave. Safe on NULL.
 VT_API void vtFree(void* memory);
+
+// ---------------------------------------------------------------------------------------------- limits
+
+/// What one file may ask for, however few bytes it has itself. Numbers that it declares are added up before
+/// memory is taken for them; what would go beyond fails at once, with a sentence that names the limit. They
+/// are estimates from above of what is kept, not of what the process holds. 0, as in {0}: the default.
+typedef struct vtLimits {
+    /// Bytes of all that is read, unpacked and decoded of a file together; a 32nd of it for the structure of
+    /// its JSON. Default 4 GiB, 2 GiB where addresses have 32 bits
+    uint64_t memory;
+    uint64_t triangles; ///< of the meshes of a model, each counted once. Default 50,000,000
+    uint64_t pixels;    ///< of one picture; more than 16384 x 8192 are never read. Default 8192 x 8192
+} vtLimits;
+
+/// The defaults.
+VT_API vtLimits vtDefaultLimits(void);
 
 // ------------------------------------------------------------------------------------------------ mesh
 
@@ -167,10 +183,29 @@ VT_API vtResult vtComputeInnerDistances(vtMesh* mesh, vtError* error);
 /// 2008). Does nothing where they are there already, or the mesh lacks these coordinates.
 VT_API vtResult vtComputeTangents(vtMesh* mesh, int texcoords, vtError* error);
 
-/// One of the built-in shapes: sphere torus knot goblet bottle diamond cube plane tumbler water; all but the
-/// plane are closed and outward. Tumbler and water fit one in the other. Fails with vt_errorArgument for
-/// another name.
+/// One of the built-in shapes: sphere torus knot goblet bottle diamond cube plane tumbler water panel; all
+/// but the plane are closed and outward. Tumbler and water fit one in the other. Fails with vt_errorArgument
+/// for another name.
 VT_API vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error);
+
+#define VT_MIN_PANEL 0.001f
+#define VT_MAX_PANEL 1e6f
+
+/// A pane about the origin that faces +z, with numbers as CSS has them of a box, in any unit.
+typedef struct vtPanelDef {
+    float width, height; ///< VT_MIN_PANEL to VT_MAX_PANEL. Default 2, 1.25
+    float radius; ///< of its corners, 0 to VT_MAX_PANEL, at most half of the shorter side. Default 0.25
+    /// How far in its edges are rounded, 0 to VT_MAX_PANEL, at most half of the shorter side; and down, at
+    /// most half of the thickness. Default 0.12
+    float bevel;
+    float thickness; ///< VT_MIN_PANEL to VT_MAX_PANEL. Default 0.25
+} vtPanelDef;
+
+VT_API vtPanelDef vtDefaultPanelDef(void);
+
+/// The shape `panel` of those numbers: closed, normals smooth where its edges are rounded. Fails with
+/// vt_errorArgument for a number out of its range, and with vt_errorMemory.
+VT_API vtResult vtCreatePanel(const vtPanelDef* def, vtMesh* mesh, vtError* error);
 
 /// Names of the built-in shapes, by index; NULL past the end. `vtShapeSummary` says what each is.
 VT_API const char* vtShapeName(int index);
@@ -420,6 +455,7 @@ typedef struct vtModelDef {
     vtReadFileFcn* readFile; ///< NULL: files beside the model are an error
     void* userData;          ///< passed to readFile
     const char* variant;     ///< of KHR_materials_variants, by its name; NULL: the materials as they are
+    vtLimits limits;         ///< of the file together with those beside it; {0}: the defaults
 } vtModelDef;
 
 /// Loads glTF 2.0 (through tinygltf); docs/gltf.md lists what is drawn. Everything that can be wrong with a
@@ -506,6 +542,11 @@ VT_API const char* vtEnvironmentSummary(int index);
 VT_API vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name,
                                   vtEnvironment* environment, vtError* error);
 
+/// The same within other limits than the defaults; NULL: those. Fails with vt_errorFormat for too many pixels
+/// and vt_errorMemory for too much memory.
+VT_API vtResult vtLoadEnvironmentWithin(const void* bytes, size_t size, const char* name,
+                                        const vtLimits* limits, vtEnvironment* environment, vtError* error);
+
 /// The same of pixels that are decoded already: 8-bit sRGB, RGBA, top row first; alpha is not looked at.
 VT_API vtResult vtCreateImageEnvironment(const uint8_t* rgba, int width, int height, const char* name,
                                          vtEnvironment* environment, vtError* error);
@@ -543,6 +584,28 @@ VT_API vtGround vtDefaultGround(void);
 
 /// Fails with vt_errorArgument and a sentence that names field, value and range.
 VT_API vtResult vtValidateGround(const vtGround* ground, vtError* error);
+
+// -------------------------------------------------------------------------------------------- backdrop
+
+/// A picture that stands behind the scene, across the view, so that glass shows it bent: what a page has
+/// under an element of glass. A ray that has left the glass meets it at its true place; one that turns back
+/// meets the environment, which goes on being what glass reflects. It fills the frame where it is seen
+/// straight, and goes with the view. Its colours are shown as they are: neither exposure nor tone mapping
+/// changes them.
+typedef struct vtBackdrop {
+    /// Behind the view's target, in units of the scene, 0 to 1000000; with matrices, behind the middle of the
+    /// glass. 0, the default: beyond all glass, by an eighth of its box's diagonal
+    float distance;
+    /// Left, top, right and bottom of the part of the picture that fills the frame, as shares of its sides;
+    /// below 0 and above 1 it is mirrored. 0, 0, 0, 0, the default: the largest part of the frame's shape, in
+    /// the middle, like object-fit: cover
+    float part[4];
+} vtBackdrop;
+
+VT_API vtBackdrop vtDefaultBackdrop(void);
+
+/// Fails with vt_errorArgument and a sentence that names field, value and range.
+VT_API vtResult vtValidateBackdrop(const vtBackdrop* backdrop, vtError* error);
 
 // ------------------------------------------------------------------------------------------------ view
 
@@ -716,8 +779,9 @@ typedef struct vtFrame {
     /// default: the preset's
     int branches;
     /// exact, glass that disperses: paths of the first sample of a pixel, 1 to VT_MAX_WAVELENGTHS. 3: red,
-    /// green and blue; 2: red, and the other two together; 1: all three together, without fringes. The
-    /// other samples have 3. 0, the default: the preset's
+    /// green and blue; 2: red, and the other two together; 1: all three together. Paths that go together
+    /// see the environment in fringes, what is opaque without. The other samples have 3. 0, the default: the
+    /// preset's
     int wavelengths;
     vtMulti multi;   ///< layered, several objects; default vt_multiAny
     vtSearch search; ///< layered; default vt_searchSteps
@@ -885,6 +949,15 @@ VT_API vtResult vtRenderer_SetEnvironment(vtRenderer* renderer, const vtEnvironm
 /// vt_errorArgument where it has no pixels, vt_errorContext where it is larger than the GPU's largest
 /// texture; then the one before stays.
 VT_API vtResult vtRenderer_SetBackground(vtRenderer* renderer, const vtImage* picture, vtError* error);
+
+/// A picture behind the scene that glass shows bent, decoded (`pixels`): RGBA, sRGB, of which alpha is not
+/// looked at. It may go afterwards; NULL: the one before stays. `backdrop` NULL: there is none any more.
+/// Techniques that trace (exact and heightfield) show it, and frames with it have no tone mapping; the others
+/// do as if there were none. With vt_backgroundEnvironment it is what is seen beside the glass. Fails as
+/// vtValidateBackdrop and vtRenderer_SetBackground do, and with vt_errorArgument where there is no picture
+/// yet; then all stays.
+VT_API vtResult vtRenderer_SetBackdrop(vtRenderer* renderer, const vtImage* picture,
+                                       const vtBackdrop* backdrop, vtError* error);
 /// Puts a ground under the scene in place of the one there is; NULL: none, as at first. What falls on it is
 /// computed with the next frame of a technique that shows it, and kept until scene, environment, ground or
 /// the frame's ior, fresnel or maxEvents change. Fails as vtValidateGround does; a frame that would show it
@@ -977,7 +1050,7 @@ VT_API vtResult vtRenderer_DrawFloats(vtRenderer* renderer, const vtFrame* frame
                                       vtError* error);
 
 /// Exit directions of the last frame's last sample: 3 * width * height floats, top row first. Unit world
-/// directions; (0,0,0) where the eye ray misses the glass, (2,2,2) where the path was lost.
+/// directions; (0,0,0) where no event has turned the eye ray, (2,2,2) where the path was lost.
 VT_API vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error);
 
 /// What became of the paths of the last frame's last sample: width * height words, top row first. The lowest

@@ -118,10 +118,14 @@ function watchWork() {
   };
 }
 
-/** A page of a context of its own, which is closed with `page.context().close()`; it waits patiently. */
+/** A page of a context of its own, which is closed with `page.context().close()`; it waits patiently, and may ask no other host. */
 export async function openPage(browser, options = {}) {
   const context = await browser.newContext(options);
   context.setDefaultTimeout(patience);
+  context.on('request', (request) => {
+    const { protocol, hostname } = new URL(request.url());
+    if (protocol.startsWith('http') && !['localhost', '127.0.0.1'].includes(hostname)) throw new Error(`a page asked another host: ${request.url()}`);
+  });
   await context.addInitScript(watchWork);
   return context.newPage();
 }

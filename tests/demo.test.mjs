@@ -137,6 +137,11 @@ describe('the demo page', { skip }, () => {
     await page.waitForTimeout(700);
     assert.equal(await page.evaluate(() => window.watched.draws), draws);
     assert.match(await page.textContent('#size'), /^\d+ × \d+ · 8 events$/);
+    const [canvas, panel, gallery] = await Promise.all(['vitrine-viewer', '.panel', '.gallery'].map((one) => page.locator(one).boundingBox()));
+    assert.deepEqual([canvas.x, canvas.y, canvas.x + canvas.width, canvas.y + canvas.height], [0, 0, panel.x, gallery.y], 'no pixel is drawn that nobody sees');
+    for (const href of await page.locator('header a').evaluateAll((links) => links.map((link) => link.href))) {
+      if (href.startsWith(server.address)) assert.equal((await page.request.get(href)).status(), 200, href);
+    }
     await page.emulateMedia({ colorScheme: 'light' });
     await page.screenshot({ path: join(screenshots, 'demo-wide-light.png') });
   });
@@ -309,12 +314,23 @@ describe('the demo page', { skip }, () => {
       return;
     }
     const pictures = [await seen(page)];
+    await page.mouse.move(150, 200);
+    await page.mouse.down();
+    await page.mouse.move(200, 220, { steps: 3 });
+    await page.mouse.up();
+    pictures[0] = await seen(page);
+    const viewOf = () => page.evaluate(() => {
+      const viewer = document.querySelector('vitrine-viewer');
+      return [String(viewer.getCameraOrbit()), Object.values(viewer.getCameraTarget()), viewer.getFieldOfView()];
+    });
+    const view = await viewOf();
     for (const output of ['analysis', 'layer-depth', 'layer-normal']) {
       await page.locator(`#output input[value=${output}]`).check();
       pictures.push(await seen(page));
     }
     await page.screenshot({ path: join(screenshots, 'demo-normals.png') });
     assert.equal(await page.inputValue('#technique'), 'layered', 'which has layers to show');
+    assert.deepEqual(await viewOf(), view, 'seen as before');
     await page.locator('#output input[value=picture]').check();
     assert.equal(await page.inputValue('#technique'), 'exact', 'and the one before comes back');
     await page.locator('#output input[value=layer-normal]').check();
@@ -460,7 +476,26 @@ describe('the demo page', { skip }, () => {
 
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
     assert.equal(download.suggestedFilename(), 'vitrine-tetrahedron.png');
-    assert.ok(PNG.sync.read(readFileSync(await download.path())).width > 424);
+    assert.ok(PNG.sync.read(readFileSync(await download.path())).width >= 424);
+  });
+
+  test('saving says how far it is', async (t) => {
+    const page = await open(t, quick);
+    await page.evaluate(() => document.querySelector('vitrine-viewer').setAttribute('samples', '6'));
+    const values = await page.evaluate(() => {
+      const values = [], progress = document.querySelector('#progress');
+      new MutationObserver(() => values.push([progress.ariaLabel, progress.value, progress.matches('.done')])).observe(progress, { attributes: true });
+      return (window.progressValues = values);
+    });
+    assert.deepEqual(values, []);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+    assert.equal(download.suggestedFilename(), 'vitrine-knot.png');
+    await page.waitForFunction(() => document.querySelector('#note').textContent === 'Saved vitrine-knot.png');
+    const shown = await page.evaluate(() => window.progressValues);
+    assert.ok(shown.some(([name, value, isDone]) => name === 'Saving' && value < 1 && !isDone), JSON.stringify(shown));
+    assert.ok(shown.some(([name, value]) => name === 'Saving' && value === 1), JSON.stringify(shown));
+    assert.deepEqual(shown.at(-1).filter((value) => typeof value !== 'number'), ['Loading', true]);
+    assert.ok(await page.isEnabled('#save'));
   });
 
   test('a click traces its path', async (t) => {
@@ -501,6 +536,16 @@ describe('the demo page', { skip }, () => {
       const { x, width } = await page.locator(`#${id}`).boundingBox();
       assert.ok(x >= 0 && x + width <= 390 && width > 0, id);
     }
+    const more = page.getByRole('button', { name: 'More shapes' }), back = page.getByRole('button', { name: 'Shapes before these' });
+    assert.ok(await more.isVisible() && await back.isHidden(), 'there are more shapes on one side');
+    while (await more.isVisible()) {
+      await more.click();
+      await quiet(page);
+      await page.waitForTimeout(50); // it scrolls
+    }
+    assert.ok(await back.isVisible());
+    const last = await page.locator('#gallery .shape').last().boundingBox();
+    assert.ok(last.x >= 0 && last.x + last.width <= 390, 'the last shape is reached');
     await page.click('#fold');
     await settle(page);
     await page.screenshot({ path: join(screenshots, 'demo-narrow-folded.png') });

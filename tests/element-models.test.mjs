@@ -26,7 +26,7 @@ const skip = skipWithout(
 const [, { PNG }] = modules ?? [{}, {}];
 
 const side = 128;
-const csp = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self' blob:; img-src 'self'";
+const csp = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self' blob:; img-src 'self'; require-trusted-types-for 'script'; trusted-types 'none'";
 
 /** Red above left, blue above right, green below left, below right yellow, half of which is covered. */
 function fourColors() {

@@ -1,12 +1,12 @@
 // <vitrine-viewer> in Firefox, by puppeteer-core over WebDriver BiDi: WebGL needs a display, so under Xvfb. Its pictures
 // are those of Chromium. Skips itself without either browser, Xvfb or the packages.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { answerWithFile, chromiumPath, launch, listen, openPage, patience, quiet, skipWithout } from './browser-tools.mjs';
+import { startDisplay, xvfbPath } from './display.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
@@ -18,23 +18,13 @@ const skip = skipWithout(
   [existsSync(join(site, 'element/vitrine-viewer.js')), `${site}/element`],
   [existsSync(chromiumPath), chromiumPath],
   [existsSync(firefoxPath), firefoxPath],
-  [existsSync('/usr/bin/Xvfb'), 'Xvfb'],
+  [existsSync(xvfbPath), 'Xvfb'],
 );
 const [{ default: puppeteer }, { PNG }, { default: pixelmatch }] = modules ?? [{}, {}, {}];
 
 const head = '<!doctype html><html lang="en"><title>Test</title><link rel="icon" href="data:,"><style>body { margin: 0; background: rgb(20, 90, 40); display: flex; flex-wrap: wrap; align-content: start } vitrine-viewer { width: 160px; height: 160px }</style><script type="module" src="/element/vitrine-viewer.js"></script>';
 const body = `<vitrine-viewer id="a" src="knot" environment-image="sky" samples="4" interpolation-decay="0"></vitrine-viewer>${
   '<vitrine-viewer class="more" src="sphere" samples="1" style="width: 40px; height: 40px"></vitrine-viewer>'.repeat(19)}`;
-
-/** Xvfb on a display of its own choice. @returns {Promise<{display: string, stop: () => void}>} */
-async function startDisplay() {
-  const server = spawn('/usr/bin/Xvfb', ['-displayfd', '3', '-screen', '0', '1280x1024x24', '+extension', 'GLX'], { stdio: ['ignore', 'ignore', 'ignore', 'pipe'] });
-  const number = await new Promise((done, fail) => {
-    server.stdio[3].once('data', (text) => done(String(text).trim()));
-    server.once('exit', () => fail(new Error('Xvfb does not start')));
-  });
-  return { display: `:${number}`, stop: () => server.kill() };
-}
 
 describe('the element in Firefox', { skip }, () => {
   let server, screen, firefox, chromium;

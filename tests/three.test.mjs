@@ -77,6 +77,32 @@ describe('glass in three.js', { skip }, () => {
     });
   }
 
+  for (const camera of ['orthographic', 'off its axis']) {
+    test(`a ball bends light as Snell has it for a camera that is ${camera}`, async () => {
+      const [{ pixels, off, error }] = await inPage((seenBy) => measureBall([[0, 0, 0]], seenBy), camera);
+      assert.ok(pixels > 3000 && off <= 0.01 * pixels, `${off} of ${pixels} directions differ by more than 1 degree`);
+      assert.equal(error, 0);
+    });
+  }
+
+  test('maps: each half of a pane transmits, blurs and bends as its row of the picture says', async () => {
+    const { plain, transmission, roughness, normal, flat } = await inPage(async () => ({
+      plain: await measureMaps({}),
+      transmission: await measureMaps({ transmissionMap: rowsTexture([255, 255, 255], [0, 0, 0]) }),
+      roughness: await measureMaps({ roughnessMap: rowsTexture([0, 0, 0], [0, 255, 0]) }, { roughness: 0.5 }),
+      normal: await measureMaps({ normalMap: rowsTexture([128, 128, 255], [180, 128, 244]) }),
+      flat: await measureMaps({ normalMap: rowsTexture([128, 128, 255], [128, 128, 255]) }),
+    }));
+    for (const { notes } of [plain, transmission, roughness, normal, flat]) assert.deepEqual(notes, []);
+    const [lower, upper] = plain.halves;
+    for (const half of plain.halves) assert.ok(half.bright > 230 && half.steepest > 150, JSON.stringify(plain));
+    assert.ok(transmission.halves[0].bright > 230 && transmission.halves[1].bright < 30, JSON.stringify(transmission));
+    assert.ok(roughness.halves[0].steepest > 150 && roughness.halves[1].steepest < 80, JSON.stringify(roughness));
+    assert.deepEqual(flat.halves.map(({ edge }) => edge), [lower.edge, upper.edge], 'a normal map that says nothing');
+    assert.equal(normal.halves[0].edge, lower.edge);
+    assert.ok(Math.abs(normal.halves[1].edge - upper.edge) >= 2, `${JSON.stringify(normal)}: tilted normals move what is behind`);
+  });
+
   test('a knot bends light as the program draws it', { skip: skipWithout([existsSync(binary), binary]) }, async (context) => {
     const { positions, indices, seen, eye } = await inPage(() => traceKnot());
     const folder = mkdtempSync(join(tmpdir(), 'vitrine-three-'));

@@ -12,18 +12,45 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/memory.h"
+#include "image/image.h"
 
-/// `expected`: bytes, as far as that is known.
-static vtResult readStream(FILE* stream, size_t expected, const char* path, uint8_t** bytes, size_t* size,
+/// What is read of a stream, whose end nobody knows.
+typedef struct Reading {
+    size_t expected; ///< bytes, as far as that is known
+    uint64_t most;   ///< then it fails
+    bool isInput;    ///< a model or a picture: what begins as neither is not read to its end
+} Reading;
+
+static const size_t firstBytes = 1 << 16;
+
+/// Are these the first bytes of a model or a picture?
+static bool begins(const uint8_t* bytes, size_t size)
+{
+    size_t first = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    while (first < size && memchr(" \t\r\n", bytes[first], 4) != NULL) {
+        ++first;
+    }
+    return vtIsPicture(bytes, size) || (size >= 4 && memcmp(bytes, "glTF", 4) == 0) ||
+           (first < size && bytes[first] == '{');
+}
+
+static vtResult readStream(FILE* stream, const Reading* how, const char* path, uint8_t** bytes, size_t* size,
                            vtError* error)
 {
-    size_t capacity = expected + (1 << 16), used = 0; // room to see the end without growing
+    size_t capacity = how->expected + firstBytes, used = 0; // room to see the end without growing
     uint8_t* data = vtAllocate(capacity, 1);
     while (data != NULL) {
         used += fread(data + used, 1, capacity - used, stream);
-        if (used < capacity) {
+        if (used < capacity || (how->isInput && !begins(data, used))) {
             break;
+        }
+        if (used > how->most) {
+            vtFree(data);
+            return vtFail(error, vt_errorMemory, "file '%.300s' has more than %llu bytes; divide it%s", path,
+                          (unsigned long long)how->most,
+                          how->isInput ? ", or allow more (--max-memory)" : "");
         }
         capacity *= 2;
         uint8_t* larger = vtReallocate(data, capacity, 1);
@@ -33,7 +60,7 @@ static vtResult readStream(FILE* stream, size_t expected, const char* path, uint
         data = larger;
     }
     if (data == NULL) {
-        return vtFail(error, vt_errorMemory, "file '%s': out of memory", path);
+        return vtFail(error, vt_errorMemory, "file '%.300s': out of memory", path);
     }
     if (ferror(stream)) {
         int reason = errno;
@@ -45,12 +72,12 @@ static vtResult readStream(FILE* stream, size_t expected, const char* path, uint
     return vtSucceed(error);
 }
 
-vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* error)
+static vtResult readWhole(const char* path, const Reading* how, uint8_t** bytes, size_t* size, vtError* error)
 {
     *bytes = NULL;
     *size = 0;
     if (strcmp(path, "-") == 0) {
-        return readStream(stdin, 0, "standard input", bytes, size, error);
+        return readStream(stdin, how, "standard input", bytes, size, error);
     }
     struct stat status;
     FILE* stream = fopen(path, "rb");
@@ -60,11 +87,28 @@ vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* er
     vtResult result;
     if (fstat(fileno(stream), &status) == 0 && S_ISDIR(status.st_mode)) {
         result = vtFail(error, vt_errorFile, "file '%s' is a directory", path);
+    } else if (S_ISREG(status.st_mode) && (uint64_t)status.st_size > how->most) {
+        result = vtFail(error, vt_errorMemory,
+                        "file '%.300s' has %lld bytes, but at most %llu are read; divide it%s", path,
+                        (long long)status.st_size, (unsigned long long)how->most,
+                        how->isInput ? ", or allow more (--max-memory)" : "");
     } else {
-        result = readStream(stream, 0, path, bytes, size, error);
+        result = readStream(stream, how, path, bytes, size, error);
     }
     fclose(stream);
     return result;
+}
+
+vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* error)
+{
+    const Reading how = {.most = vtDefaultLimits().memory};
+    return readWhole(path, &how, bytes, size, error);
+}
+
+vtResult vtReadInput(const char* path, const vtLimits* limits, uint8_t** bytes, size_t* size, vtError* error)
+{
+    const Reading how = {.most = vtResolveLimits(limits).memory, .isInput = true};
+    return readWhole(path, &how, bytes, size, error);
 }
 
 vtResult vtReadText(const char* path, char** text, vtError* error)
@@ -72,7 +116,8 @@ vtResult vtReadText(const char* path, char** text, vtError* error)
     uint8_t* bytes;
     size_t size;
     *text = NULL;
-    const vtResult result = vtReadFile(path, &bytes, &size, error);
+    const Reading how = {.most = 16 << 20}; // no list and no way of a camera is as long
+    const vtResult result = readWhole(path, &how, &bytes, &size, error);
     if (result != vt_ok) {
         return result;
     }
@@ -127,7 +172,8 @@ static vtResult readPlain(const char* path, size_t limit, uint8_t** bytes, size_
     } else if ((stream = fdopen(file, "rb")) == NULL) {
         result = vtFail(error, vt_errorFile, "%s", strerror(errno));
     } else {
-        result = readStream(stream, (size_t)status.st_size, path, bytes, size, error);
+        const Reading how = {.expected = (size_t)status.st_size, .most = limit};
+        result = readStream(stream, &how, path, bytes, size, error);
     }
     if (stream != NULL) {
         fclose(stream);

@@ -8,7 +8,11 @@
 /// caller's to free.
 vtResult vtReadFile(const char* path, uint8_t** bytes, size_t* size, vtError* error);
 
-/// The same as text with a zero at its end, which free takes.
+/// The same of a model or a picture. Fails with vt_errorMemory where it has more bytes than the limits'
+/// memory (NULL: the defaults). What begins as neither need not end: its beginning is all that is read.
+vtResult vtReadInput(const char* path, const vtLimits* limits, uint8_t** bytes, size_t* size, vtError* error);
+
+/// Reads a text of at most 16 MiB and puts a zero at its end; free takes it.
 vtResult vtReadText(const char* path, char** text, vtError* error);
 
 /// The next line of a text, without LF or CRLF, and *at behind it; NULL past the last one.

@@ -84,13 +84,9 @@ vtResult vtMakeFrame(const vtOptions* options, const vtInput* input, vtFrame* fr
     }
     frame->output = options->analysis ? vt_outputAnalysis : vt_outputPicture;
     frame->fresnel = options->fresnel;
+    frame->toneMapping = options->backdrop != NULL ? vt_toneMappingNone : frame->toneMapping;
     if (options->background != NULL && vtFrame_SetBackground(frame, options->background, error) != vt_ok) {
         return vt_errorArgument;
-    }
-    if (isReference && frame->background != vt_backgroundEnvironment && options->ground.isThere) {
-        return vtFail(
-            error, vt_errorArgument,
-            "technique 'reference' has the environment behind a ground; leave --background or --ground out");
     }
     frame->samples = isReference ? 1 : options->samples; // the reference takes more
     const float aspect = (float)frame->width / (float)frame->height;

@@ -273,7 +273,7 @@ vtResult vtRunInspect(const vtOptions* options, vtError* error)
     uint8_t* bytes;
     size_t size;
     vtModelFolders folders;
-    vtResult result = vtReadFile(options->model, &bytes, &size, error);
+    vtResult result = vtReadInput(options->model, &options->limits, &bytes, &size, error);
     if (result != vt_ok) {
         return result;
     }
@@ -284,7 +284,8 @@ vtResult vtRunInspect(const vtOptions* options, vtError* error)
                             .directory = folders.directory,
                             .root = folders.root[0] != '\0' ? folders.root : NULL,
                             .readFile = vtReadFileForModel,
-                            .userData = &folders};
+                            .userData = &folders,
+                            .limits = options->limits};
     vtScene scene;
     vtModelFacts facts;
     if (result == vt_ok) {

@@ -33,8 +33,8 @@ static bool isShape(const char* name)
     return vtShapeName(i) != NULL;
 }
 
-static vtResult loadEnvironment(const char* name, vtEnvironment* environment, uint64_t* contents,
-                                vtError* error)
+static vtResult loadEnvironment(const char* name, const vtLimits* limits, vtEnvironment* environment,
+                                uint64_t* contents, vtError* error)
 {
     // Built-in names hold neither a dot nor a slash.
     if (strpbrk(name, "./") == NULL) {
@@ -42,10 +42,10 @@ static vtResult loadEnvironment(const char* name, vtEnvironment* environment, ui
     }
     uint8_t* bytes;
     size_t size;
-    vtResult result = vtReadFile(name, &bytes, &size, error);
+    vtResult result = vtReadInput(name, limits, &bytes, &size, error);
     if (result == vt_ok) {
         *contents = vtHash(*contents, bytes, size);
-        result = vtLoadEnvironment(bytes, size, name, environment, error);
+        result = vtLoadEnvironmentWithin(bytes, size, name, limits, environment, error);
         vtFree(bytes);
     }
     if (result == vt_ok && environment->width != 2 * environment->height) {
@@ -105,7 +105,8 @@ static vtResult loadModel(const Named* named, const void* bytes, size_t size, vt
                             .root = folders.root[0] != '\0' ? folders.root : NULL,
                             .variant = named->options->variant,
                             .readFile = vtReadFileForModel,
-                            .userData = &folders};
+                            .userData = &folders,
+                            .limits = named->options->limits};
     if (result == vt_ok) {
         result =
             named->options->plays ? vtOpenModel(&def, model, scene, error) : vtLoadScene(&def, scene, error);
@@ -121,13 +122,17 @@ static vtResult loadFile(const Named* named, vtScene* scene, vtModel** model, vt
 {
     uint8_t* bytes;
     size_t size;
-    vtResult result = vtReadFile(named->name, &bytes, &size, error);
+    vtResult result = vtReadInput(named->name, &named->options->limits, &bytes, &size, error);
     if (result != vt_ok) {
         return result;
     }
     *named->contents = vtHash(*named->contents, bytes, size);
     const bool isRelief = vtIsPicture(bytes, size);
     result = checkKind(named, isRelief ? vt_kindReliefFile : vt_kindMesh, error);
+    if (result == vt_ok && isRelief) {
+        result =
+            vtCheckPicture(bytes, size, named->name, &named->options->limits, sizeof(float), NULL, error);
+    }
     if (result == vt_ok && isRelief) {
         const vtReliefDef def = vtMakeReliefDef(named->options, named->spec, -1);
         result = vtLoadReliefFile(named->name, bytes, size, &def, scene, error);
@@ -139,11 +144,12 @@ static vtResult loadFile(const Named* named, vtScene* scene, vtModel** model, vt
 }
 
 /// `triangles`: about so many, 0: as built in.
-static vtResult loadShape(const char* name, int triangles, vtScene* scene, vtError* error)
+static vtResult loadShape(const char* name, int triangles, const vtObjectSpec* spec, vtScene* scene,
+                          vtError* error)
 {
     vtMesh mesh;
     vtResult result = triangles > 0 ? vtCreateFineShape(name, (uint32_t)triangles, &mesh, error)
-                                    : vtCreateShape(name, &mesh, error);
+                                    : vtObjectSpec_CreateShape(spec, name, &mesh, error);
     if (result == vt_ok) {
         vtMaterial material = vtDefaultMaterial();
         material.opaque = strcmp(name, "plane") == 0; // it has no volume
@@ -179,8 +185,8 @@ static vtResult loadNamed(const Named* named, vtScene* scene, vtModel** model, v
         return result == vt_ok ? vtLoadReliefPattern(pattern, &def, scene, error) : result;
     }
     if (isShape(named->name)) {
-        const vtResult result = checkKind(named, vt_kindMesh, error);
-        return result == vt_ok ? loadShape(named->name, 0, scene, error) : result;
+        const vtResult result = checkKind(named, vtKindOfShape(named->name), error);
+        return result == vt_ok ? loadShape(named->name, 0, named->spec, scene, error) : result;
     }
     return loadFile(named, scene, model, error);
 }
@@ -204,8 +210,9 @@ static vtResult addObject(const vtOptions* options, const char* text, vtInput* i
     result = loadNamed(&(Named){options, &spec, spec.name, &input->contents}, &added, &model, error);
     if (result == vt_ok) {
         vtObjectSpec_Apply(&spec, &added);
-        result =
-            spec.image[0] != '\0' ? vtAddObjectImage(spec.image, &added, &input->contents, error) : vt_ok;
+        result = spec.image[0] != '\0'
+                     ? vtAddObjectImage(spec.image, &options->limits, &added, &input->contents, error)
+                     : vt_ok;
     }
     if (result == vt_ok) {
         vtPrintLoaded(spec.name, &added, options->verbose);
@@ -233,7 +240,7 @@ static vtResult loadMain(const vtOptions* options, vtInput* input, vtError* erro
     if (model == NULL || options->triangles > 0) {
         const vtResult result = vtCheckReliefOptions(options, vt_kindMesh, error);
         return result == vt_ok && options->triangles > 0
-                   ? loadShape(model != NULL ? model : "", options->triangles, scene, error)
+                   ? loadShape(model != NULL ? model : "", options->triangles, NULL, scene, error)
                    : result;
     }
     // A name without dot or slash was hardly meant as a file.
@@ -297,64 +304,85 @@ static vtResult prepareMeshes(const vtOptions* options, vtScene* scene, vtError*
                     "heightfield and reference do\n",
                     vtTechnique_Info(technique)->id);
         }
+        if (options->backdrop != NULL && !vtTechnique_Row(technique)->traces) {
+            fprintf(stderr,
+                    "vitrine: note: technique %s shows no backdrop; exact, heightfield and reference do\n",
+                    vtTechnique_Info(technique)->id);
+        }
     }
     return vtPrepareScene(scene, technique, NULL, error);
 }
 
-/// The picture that a background names, if it does.
-static vtResult loadBackground(const char* text, vtImage* picture, uint64_t* contents, vtError* error)
+static vtResult loadPicture(const char* name, const vtLimits* limits, vtImage* picture, uint64_t* contents,
+                            vtError* error)
 {
-    vtFrame frame = vtDefaultFrame();
     uint8_t* bytes;
     size_t size;
-    vtResult result = vtFrame_SetBackground(&frame, text, error);
-    if (result != vt_ok || frame.background != vt_backgroundPicture) {
-        return result;
-    }
-    result = vtReadFile(text, &bytes, &size, error);
+    vtResult result = vtReadInput(name, limits, &bytes, &size, error);
     if (result == vt_ok) {
         *contents = vtHash(*contents, bytes, size);
-        result = vtDecodeImage(bytes, size, text, picture, error);
+        result = vtCheckPicture(bytes, size, name, limits, 4, NULL, error);
+        result = result == vt_ok ? vtDecodeImage(bytes, size, name, picture, error) : result;
         vtFree(bytes);
     }
     return result;
 }
 
-vtResult vtSetInputModel(const vtOptions* options, vtInput* input, vtError* error)
+/// The picture that a background names, if it does.
+static vtResult loadBackground(const char* text, const vtLimits* limits, vtImage* picture, uint64_t* contents,
+                               vtError* error)
 {
-    vtInput fresh = {.ground = options->ground.ground, .contents = VT_NO_HASH};
-    vtResult result = loadObjects(options, &fresh, error);
+    vtFrame frame = vtDefaultFrame();
+    const vtResult result = vtFrame_SetBackground(&frame, text, error);
+    const bool isPicture = result == vt_ok && frame.background == vt_backgroundPicture;
+    return isPicture ? loadPicture(text, limits, picture, contents, error) : result;
+}
+
+vtResult vtLoadInputModel(const vtOptions* options, vtInput* fresh, vtError* error)
+{
+    *fresh = (vtInput){.ground = options->ground.ground, .contents = VT_NO_HASH};
+    vtResult result = loadObjects(options, fresh, error);
     if (result == vt_ok) {
-        result = vtValidateScene(&fresh.scene, error);
+        result = vtValidateScene(&fresh->scene, error);
     }
     if (result == vt_ok) {
-        result = beginMotion(options, &fresh, error);
+        result = beginMotion(options, fresh, error);
     }
     if (result == vt_ok) {
-        result = prepareMeshes(options, &fresh.scene, error);
+        result = prepareMeshes(options, &fresh->scene, error);
     }
     if (result != vt_ok) {
-        vtDestroyInput(&fresh);
-        return result;
+        vtDestroyInput(fresh);
     }
+    return result;
+}
+
+void vtInput_TakeModel(vtInput* input, const vtInput* fresh)
+{
     vtDestroyMotion(&input->motion);
     vtDestroyScene(&input->scene);
-    input->scene = fresh.scene;
-    input->motion = fresh.motion;
-    input->ground = fresh.ground;
-    input->contents = fresh.contents;
-    return vtSucceed(error);
+    input->scene = fresh->scene;
+    input->motion = fresh->motion;
+    input->ground = fresh->ground;
+    input->contents = fresh->contents;
 }
 
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error)
 {
-    *input = (vtInput){.ior = options->frame.ior, .surroundings = VT_NO_HASH};
-    vtResult result = vtSetInputModel(options, input, error);
+    vtResult result = vtLoadInputModel(options, input, error);
+    input->ior = options->frame.ior;
+    input->surroundings = VT_NO_HASH;
     if (result == vt_ok) {
-        result = loadEnvironment(options->environment, &input->environment, &input->surroundings, error);
+        result = loadEnvironment(options->environment, &options->limits, &input->environment,
+                                 &input->surroundings, error);
     }
     if (result == vt_ok && options->background != NULL) {
-        result = loadBackground(options->background, &input->background, &input->surroundings, error);
+        result = loadBackground(options->background, &options->limits, &input->background,
+                                &input->surroundings, error);
+    }
+    if (result == vt_ok && options->backdrop != NULL) {
+        result =
+            loadPicture(options->backdrop, &options->limits, &input->backdrop, &input->surroundings, error);
     }
     if (result != vt_ok) {
         vtDestroyInput(input);
@@ -377,6 +405,7 @@ void vtDestroyInput(vtInput* input)
     vtDestroyScene(&input->scene);
     vtDestroyEnvironment(&input->environment);
     vtFree(input->background.pixels);
+    vtFree(input->backdrop.pixels);
     *input = (vtInput){0};
 }
 

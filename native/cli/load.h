@@ -7,6 +7,7 @@ typedef struct vtInput {
     vtScene scene;
     vtEnvironment environment;
     vtImage background;    ///< its pixels NULL: no picture
+    vtImage backdrop;      ///< the same
     float ior;             ///< of the command line; 0: each object's own
     vtGround ground;       ///< of the command line; below a scene that moves, at its lowest point ever
     vtMotion motion;       ///< of the scene
@@ -17,8 +18,11 @@ typedef struct vtInput {
 /// Loads models and environment, prints notes (computed normals) and warnings (an open mesh) to stderr. Where
 /// animations are played (options->plays) the scene is as at --time, or 0.
 vtResult vtLoadInput(const vtOptions* options, vtInput* input, vtError* error);
-/// Loads another model in the scene's place; on failure the one before stays.
-vtResult vtSetInputModel(const vtOptions* options, vtInput* input, vtError* error);
+/// Loads another model, with what belongs to the scene alone; environment and background stay empty. On
+/// failure nothing is left.
+vtResult vtLoadInputModel(const vtOptions* options, vtInput* fresh, vtError* error);
+/// Puts that model in the scene's place.
+void vtInput_TakeModel(vtInput* input, const vtInput* fresh);
 void vtDestroyInput(vtInput* input);
 
 /// Moves the scene to another time of its animations, which are played. What a technique needs it has again.

@@ -1,5 +1,6 @@
 #include "cli/load_notes.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -45,6 +46,12 @@ static void printMeshNotes(const char* name, const vtScene* scene, uint32_t inde
             "finds its way out there\n",
             name, which, mesh->openEdgeCount);
     }
+    if (mesh->indexCount > 0 && mesh->degenerateCount == mesh->indexCount / 3) {
+        fprintf(
+            stderr,
+            "vitrine: warning: '%s'%s cannot be seen: none of its %u triangles has an area; give them one\n",
+            name, which, mesh->degenerateCount);
+    }
     if (mesh->normalsComputed) {
         fprintf(stderr, "vitrine: note: '%s'%s lacks normals; they are computed, smooth over its edges\n",
                 name, which);
@@ -59,6 +66,22 @@ static void printMeshNotes(const char* name, const vtScene* scene, uint32_t inde
     }
 }
 
+/// Says where a scene lies so far from the origin that its shape, or where an eye can stand, is rounded.
+static void sayFar(const char* name, const vtScene* scene)
+{
+    vtVec3 low, high;
+    vtScene_Bounds(scene, &low, &high);
+    const vtVec3 size = vtSub(high, low);
+    const float wide = fmaxf(size.x, fmaxf(size.y, size.z)), reach = fmaxf(vtLength(low), vtLength(high));
+    if (wide < reach * 0x1p-16f) {
+        fprintf(stderr,
+                "vitrine: note: '%s' is %g wide and lies %g from the origin, where numbers are about %.1g "
+                "apart, so "
+                "places are rounded; move it nearer\n",
+                name, (double)wide, (double)reach, (double)(reach * 0x1p-23f));
+    }
+}
+
 void vtPrintLoaded(const char* name, const vtScene* scene, bool verbose)
 {
     for (uint32_t i = 0; i < scene->meshCount; ++i) {
@@ -66,6 +89,7 @@ void vtPrintLoaded(const char* name, const vtScene* scene, bool verbose)
             printMeshNotes(name, scene, i, verbose);
         }
     }
+    sayFar(name, scene);
     for (uint32_t i = 0; i < scene->objectCount; ++i) {
         const vtObject* object = &scene->objects[i];
         const vtMaterial* material = &scene->materials[object->material];

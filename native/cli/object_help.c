@@ -28,6 +28,11 @@ static const struct {
     [vt_keyChecker] = {"N", "squares along a side; makes it opaque (8)"},
     [vt_keyDispersion] = {"N", "glass: 20 over its Abbe number (0)"},
     [vt_keyThin] = {NULL, "glass: a thin wall, through which light goes straight on"},
+    [vt_keyWidth] = {"N", "panel: from left to right (2)"},
+    [vt_keyHeight] = {"N", "panel: from top to bottom (1.25)"},
+    [vt_keyRadius] = {"N", "panel: of its corners (0.25)"},
+    [vt_keyBevel] = {"N", "panel: how far in its edges are rounded (0.12)"},
+    [vt_keyThickness] = {"N", "panel: from front to back (0.25)"},
     [vt_keyImage] = {"FILE", "a .png or .jpg as its colour; makes it opaque"},
 };
 

@@ -6,15 +6,17 @@
 #include "cli/hash.h"
 #include "image/image.h"
 
-vtResult vtAddObjectImage(const char* path, vtScene* scene, uint64_t* contents, vtError* error)
+vtResult vtAddObjectImage(const char* path, const vtLimits* limits, vtScene* scene, uint64_t* contents,
+                          vtError* error)
 {
     uint8_t* bytes;
     size_t size;
     vtImage image = {0};
-    vtResult result = vtReadFile(path, &bytes, &size, error);
+    vtResult result = vtReadInput(path, limits, &bytes, &size, error);
     if (result == vt_ok) {
         *contents = vtHash(*contents, bytes, size);
-        result = vtDecodeImage(bytes, size, path, &image, error);
+        result = vtCheckPicture(bytes, size, path, limits, 4, NULL, error);
+        result = result == vt_ok ? vtDecodeImage(bytes, size, path, &image, error) : result;
         vtFree(bytes);
     }
     if (result != vt_ok) {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cli/hash.h"
+#include "cli/limit_options.h"
 #include "cli/object_help.h"
 #include "cli/output_name.h"
 #include "cli/setting_options.h"
@@ -21,7 +22,8 @@ typedef enum Kind {
     kindNumber,
     kindSize,
     kindSetting,
-    kindGround
+    kindGround,
+    kindLimit
 } Kind;
 
 typedef struct Option {
@@ -51,6 +53,11 @@ typedef struct Option {
 #define GROUND(title, value, text)                                                                           \
     {                                                                                                        \
         .name = title, .kind = kindGround, .argument = value, .help = text, .commands = RENDER | VIEW        \
+    }
+
+#define LIMIT(title, value, text)                                                                            \
+    {                                                                                                        \
+        .name = title, .kind = kindLimit, .argument = value, .help = text, .commands = SCENE | INSPECT       \
     }
 
 static const Option table[] = {
@@ -130,6 +137,13 @@ static const Option table[] = {
     {"background", 0, kindText, AT(background), 0, 0, "WHAT",
      "behind the scene: environment, blurred[:DEGREES], #rrggbb, a picture's file, transparent (environment)",
      RENDER | VIEW},
+    {"backdrop", 0, kindText, AT(backdrop), 0, 0, "FILE",
+     "a picture behind the scene that glass shows bent: it fills the frame and keeps its colours, glass goes "
+     "on "
+     "reflecting the environment; exact, heightfield and reference show it",
+     RENDER | VIEW},
+    {"backdrop-distance", 0, kindNumber, AT(backdropDistance), 0, 1e6, "N",
+     "of it behind --target (beyond all of the scene)", RENDER | VIEW},
     GROUND("ground", "=Y",
            "a ground at this height, which catches shadows and light (at the scene's lowest point); exact, "
            "heightfield and reference show it"),
@@ -191,6 +205,14 @@ static const Option table[] = {
     {"threads", 0, kindInteger, AT(threads), 1, 32, "N", "of llvmpipe and of the reference (all processors)",
      BENCH},
     {"frames", 0, kindInteger, AT(frames), 1, 1000000, "N", "close the window after so many frames", VIEW},
+    LIMIT("max-memory", "SIZE",
+          "a file that asks for more than this is refused, with all that it unpacks and those beside it, as "
+          "512M (4G)"),
+    LIMIT("max-triangles", "N", "a file with more is refused (50M)"),
+    LIMIT(
+        "max-pixels", "N",
+        "a picture of more is neither read nor drawn (67108864, 8192 x 8192); more than 134217728 are never "
+        "read"),
     {"verbose", 'v', kindFlag, AT(verbose), 0, 0, NULL, "say what is done, on what, with how much memory",
      SCENE | RAYS},
     {"help", 'h', kindFlag, AT(help), 0, 0, NULL, "this text", SCENE | RAYS | INSPECT},
@@ -255,6 +277,8 @@ static vtResult store(const Option* option, char* value, vtOptions* options, vtE
         return storeSize(option, value, &options->frame, error);
     case kindSetting:
         return storeSetting(option, value, options, error);
+    case kindLimit:
+        return vtReadLimit(option->name, value, &options->limits, error);
     case kindGround:
         return vtReadGroundOption(option->name, value, &options->ground, error);
     default:
@@ -265,8 +289,9 @@ static vtResult store(const Option* option, char* value, vtOptions* options, vtE
 /// Does a picture of a series depend on it? What files hold is looked at as well, whatever their names.
 static bool isOfPicture(const Option* option)
 {
-    static const char* const others[] = {"output", "list",   "camera-keys", "frames",
-                                         "part",   "redraw", "verbose",     "help"};
+    static const char* const others[] = {"output",     "list",          "camera-keys", "frames",
+                                         "part",       "redraw",        "verbose",     "help",
+                                         "max-memory", "max-triangles", "max-pixels"};
     bool is = true;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i) {
         is = is && strcmp(option->name, others[i]) != 0;
@@ -362,6 +387,10 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     const bool eyeMoves = options->turntable > 0 || options->cameraKeys != NULL;
     options->plays = !isStill && (command == vt_commandView || options->time >= 0.0f ||
                                   options->animation != NULL || (options->asksForFrames && !eyeMoves));
+    if (options->backdropDistance > 0.0f && options->backdrop == NULL) {
+        return vtFail(error, vt_errorArgument,
+                      "--backdrop-distance says something of a backdrop; add --backdrop");
+    }
     const vtGlassInfo* glass = vtFindGlass(options->glass);
     if (options->glass != NULL && glass == NULL) {
         return vtFail(error, vt_errorArgument, "--glass is '%.100s', which is unknown; see 'vitrine list'",
@@ -374,7 +403,14 @@ vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* o
     }
     // The other commands compare strict paths.
     options->fresnel = !options->noFresnel && (command == vt_commandRender || command == vt_commandView);
-    return vtCheckGroundOptions(&options->ground, error);
+    const vtResult result =
+        vtCheckDrawn(options->frame.width, options->frame.height, &options->limits, error);
+    return result == vt_ok ? vtCheckGroundOptions(&options->ground, error) : result;
+}
+
+bool vtIsReference(const vtOptions* options)
+{
+    return strcmp(options->technique, "reference") == 0;
 }
 
 void vtNameModels(const vtOptions* options, char* text, size_t size)

@@ -18,6 +18,7 @@
 typedef struct vtOptions {
     vtFrame frame; ///< the settings, as given; vtMakeFrame adds what is told otherwise
     vtGroundOptions ground;
+    vtLimits limits;           ///< of one file, as given
     const char* model;         ///< the first of the models; NULL: there is none
     const char* const* models; ///< of `render`, all of them
     int modelCount;
@@ -32,6 +33,8 @@ typedef struct vtOptions {
     const char* output;
     const char* environment;
     const char* background; ///< NULL: the environment
+    const char* backdrop;   ///< a picture's file; NULL: none
+    float backdropDistance; ///< 0: not given
     const char* technique;
     const char* root; ///< a folder around the models'
     const char *walls, *variant;
@@ -80,6 +83,9 @@ typedef enum vtCommand {
 /// Parses the words after the command. Fails with a sentence on an unknown option, a missing or malformed
 /// value or one out of range.
 vtResult vtParseOptions(vtCommand command, int count, char** words, vtOptions* options, vtError* error);
+
+/// True where --technique names the CPU reference rather than a row of the table.
+bool vtIsReference(const vtOptions* options);
 
 /// What is drawn, for reports: the model and the objects, " + " between them.
 void vtNameModels(const vtOptions* options, char* text, size_t size);

@@ -37,7 +37,7 @@ vtResult vtCheckReliefOptions(const vtOptions* options, vtObjectKind kind, vtErr
                       "--%s is given, but no MODEL; an --object has keys for it, see 'vitrine render --help'",
                       given);
     }
-    if (kind == vt_kindMesh) {
+    if (kind < vt_kindReliefFile) {
         return vtFail(
             error, vt_errorArgument,
             "--%s is given, but '%.200s' is no relief; give a picture of heights or a built-in relief (see "

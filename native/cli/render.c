@@ -197,11 +197,15 @@ static vtResult compareWithReference(const vtOptions* options, const vtFrame* fr
     size_t size, pixelCount = (size_t)frame->width * (size_t)frame->height;
     float *wanted, *map = NULL;
     int width, height;
-    vtResult result = vtReadFile(options->reference, &bytes, &size, error);
+    vtResult result = vtReadInput(options->reference, &options->limits, &bytes, &size, error);
     if (result != vt_ok) {
         return result;
     }
-    result = vtDecodeImageLinear(bytes, size, options->reference, &wanted, &width, &height, error);
+    result =
+        vtCheckPicture(bytes, size, options->reference, &options->limits, 3 * sizeof *wanted, NULL, error);
+    if (result == vt_ok) {
+        result = vtDecodeImageLinear(bytes, size, options->reference, &wanted, &width, &height, error);
+    }
     vtFree(bytes);
     if (result != vt_ok) {
         return result;

@@ -10,7 +10,6 @@
 #include "cli/hash.h"
 #include "cli/output_name.h"
 #include "cli/series.h"
-#include "cli/trace.h"
 #include "cli/video.h"
 
 enum { mostFrames = 1000000 };

@@ -30,26 +30,30 @@ static vtResult prepareMotion(vtInput* input, vtError* error)
     return preparation != NULL ? vtEndPreparation(preparation, error) : vt_ok;
 }
 
-static vtResult setScene(vtSession* session, const vtOptions* options, vtError* error)
+static vtResult setScene(vtRenderer* renderer, vtInput* input, const vtOptions* options, vtError* error)
 {
-    vtResult result = prepareMotion(&session->input, error);
+    vtResult result = prepareMotion(input, error);
     if (result == vt_ok) {
-        result = vtRenderer_SetScene(session->renderer, &session->input.scene, error);
+        result = vtRenderer_SetScene(renderer, &input->scene, error);
     }
     if (result == vt_ok && options->ground.isThere) {
-        result = vtRenderer_SetGround(session->renderer, &session->input.ground, error);
+        result = vtRenderer_SetGround(renderer, &input->ground, error);
     }
     return result;
 }
 
 vtResult vtSession_Fill(vtSession* session, const vtOptions* options, vtError* error)
 {
-    vtResult result = setScene(session, options, error);
+    vtResult result = setScene(session->renderer, &session->input, options, error);
     if (result == vt_ok) {
         result = vtRenderer_SetEnvironment(session->renderer, &session->input.environment, error);
     }
     if (result == vt_ok && session->input.background.pixels != NULL) {
         result = vtRenderer_SetBackground(session->renderer, &session->input.background, error);
+    }
+    if (result == vt_ok && options->backdrop != NULL) {
+        const vtBackdrop backdrop = {.distance = options->backdropDistance};
+        result = vtRenderer_SetBackdrop(session->renderer, &session->input.backdrop, &backdrop, error);
     }
     return result;
 }
@@ -83,8 +87,20 @@ vtResult vtOpenSession(const vtOptions* options, vtSession* session, vtError* er
 
 vtResult vtSession_SetModel(vtSession* session, const vtOptions* options, vtError* error)
 {
-    const vtResult result = vtSetInputModel(options, &session->input, error);
-    return result == vt_ok && session->renderer != NULL ? setScene(session, options, error) : result;
+    vtInput fresh;
+    vtResult result = vtLoadInputModel(options, &fresh, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    if (session->renderer != NULL) {
+        result = setScene(session->renderer, &fresh, options, error);
+    }
+    if (result != vt_ok) {
+        vtDestroyInput(&fresh);
+        return result;
+    }
+    vtInput_TakeModel(&session->input, &fresh);
+    return vtSucceed(error);
 }
 
 vtResult vtSession_SetTime(vtSession* session, const vtOptions* options, double seconds, vtError* error)

@@ -21,7 +21,7 @@ bool vtIsDrawn(const char* path, const char* comment, int width, int height)
     size_t size;
     vtError error;
     if (stat(path, &status) != 0 || !S_ISREG(status.st_mode) ||
-        vtReadFile(path, &bytes, &size, &error) != vt_ok) {
+        vtReadInput(path, NULL, &bytes, &size, &error) != vt_ok) {
         return false;
     }
     float* pixels = NULL;

@@ -6,14 +6,9 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "cli/backdrop.h"
+#include "cli/background.h"
 #include "image/image.h"
 #include "lab/metrics/timing.h"
-
-bool vtIsReference(const vtOptions* options)
-{
-    return strcmp(options->technique, "reference") == 0;
-}
 
 static void showProgress(float share, void* userData)
 {
@@ -29,12 +24,15 @@ vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* 
         return result;
     }
     double start = vtNow();
+    const vtBackdrop backdrop = {.distance = options->backdropDistance};
     vtReferenceDef def = {
         .frame = frame,
         .environment = &input->environment,
         .samples = options->samples,
         .fresnel = frame->fresnel,
         .ground = options->ground.isThere ? &input->ground : NULL,
+        .backdrop = options->backdrop != NULL ? &backdrop : NULL,
+        .backdropPicture = &input->backdrop,
         .progress = showsProgress ? showProgress : NULL,
         .userData = &start,
     };
@@ -78,18 +76,19 @@ static vtVec3 shownColor(const vtReferenceImage* image, const vtFrame* frame, si
 static vtResult compose(const vtReferenceImage* image, const vtInput* input, const vtFrame* frame,
                         float* rgba, vtError* error)
 {
-    vtBackdrop backdrop;
-    const vtResult result = vtMakeBackdrop(input, frame, &backdrop, error);
+    vtTracedBackground background;
+    const vtResult result = vtMakeTracedBackground(input, frame, &background, error);
     for (int row = 0; row < image->height && result == vt_ok; ++row) {
         for (int column = 0; column < image->width; ++column) {
             const size_t pixel = (size_t)row * (size_t)image->width + (size_t)column;
             const float share = image->covered[pixel];
             const vtVec3 light = vtMakeVec3(image->radiance + 3 * pixel);
-            vtBackdrop_Show(&backdrop, column, row, vtScale(light, share > 0.0f ? 1.0f / share : 0.0f), share,
-                            rgba + 4 * pixel);
+            vtTracedBackground_Show(&background, column, row,
+                                    vtScale(light, share > 0.0f ? 1.0f / share : 0.0f), share,
+                                    rgba + 4 * pixel);
         }
     }
-    vtDestroyBackdrop(&backdrop);
+    vtDestroyTracedBackground(&background);
     return result;
 }
 

@@ -4,9 +4,6 @@
 #include "cli/load.h"
 #include "lab/reference/reference.h"
 
-/// True where --technique names the CPU reference rather than a row of the table.
-bool vtIsReference(const vtOptions* options);
-
 /// Traces the frame, if asked to with a progress line on standard error.
 vtResult vtTrace(const vtOptions* options, const vtInput* input, const vtFrame* frame, bool showsProgress,
                  vtReferenceImage* image, vtError* error);

@@ -140,8 +140,13 @@ static vtResult loadInput(const char* path, Input* input, vtError* error)
 {
     uint8_t* bytes;
     size_t size;
-    vtResult result = vtReadFile(path, &bytes, &size, error);
+    vtResult result = vtReadInput(path, NULL, &bytes, &size, error);
     if (result != vt_ok) {
+        return result;
+    }
+    result = vtCheckPicture(bytes, size, path, NULL, 3 * sizeof(float), NULL, error);
+    if (result != vt_ok) {
+        vtFree(bytes);
         return result;
     }
     if (size >= 2 && memcmp(bytes, "PF", 2) == 0) {

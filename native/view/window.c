@@ -28,6 +28,11 @@ vtWindowKeys vtWindow_TakeKeys(vtWindow* window)
     (void)window;
     return (vtWindowKeys){0};
 }
+char* vtWindow_TakeDropped(vtWindow* window)
+{
+    (void)window;
+    return NULL;
+}
 void vtWindow_SetTitle(vtWindow* window, const char* title)
 {
     (void)window, (void)title;
@@ -53,14 +58,16 @@ void vtWindow_Present(vtWindow* window)
 #include <GLFW/glfw3.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct vtWindow {
     GLFWwindow* handle;
     double x, y;      // of the pointer at the last event
     double yaw, turn; // gathered since the last poll, radians
     double zoom;      // likewise, wheel notches
-    bool dragging, resized;
+    bool dragging, scrubbing, resized;
     vtWindowKeys keys;
+    char* dropped; // since the last call; NULL: nothing
 };
 
 // One turn of the object is two and a half windows' widths of dragging.
@@ -73,8 +80,12 @@ static void onButton(GLFWwindow* handle, int button, int action, int modifiers)
     vtWindow* window = glfwGetWindowUserPointer(handle);
     if (button == GLFW_MOUSE_BUTTON_LEFT) {
         window->dragging = action == GLFW_PRESS;
-        glfwGetCursorPos(handle, &window->x, &window->y);
+    } else if (button == GLFW_MOUSE_BUTTON_RIGHT) {
+        window->scrubbing = action == GLFW_PRESS;
     }
+#if defined(__EMSCRIPTEN__) // a finger comes down where no pointer was
+    glfwGetCursorPos(handle, &window->x, &window->y);
+#endif
 }
 
 static void onMove(GLFWwindow* handle, double x, double y)
@@ -83,6 +94,11 @@ static void onMove(GLFWwindow* handle, double x, double y)
     if (window->dragging) {
         window->yaw -= (x - window->x) * radiansPerPixel;
         window->turn += (y - window->y) * radiansPerPixel;
+    }
+    if (window->scrubbing) {
+        int width, height;
+        glfwGetWindowSize(handle, &width, &height);
+        window->keys.scrub += (x - window->x) / fmax(width, 1.0);
     }
     window->x = x;
     window->y = y;
@@ -106,6 +122,27 @@ static void onKey(GLFWwindow* handle, int key, int code, int action, int modifie
     keys->start |= key == GLFW_KEY_HOME;
     keys->steps += (key == GLFW_KEY_RIGHT) - (key == GLFW_KEY_LEFT);
 }
+
+#if !defined(__EMSCRIPTEN__) // a page takes files by itself
+static bool isModel(const char* path)
+{
+    const char* ending = strrchr(path, '.');
+    return ending != NULL && (strcmp(ending, ".glb") == 0 || strcmp(ending, ".gltf") == 0);
+}
+
+static void onDrop(GLFWwindow* handle, int count, const char** paths)
+{
+    vtWindow* window = glfwGetWindowUserPointer(handle);
+    int chosen = 0;
+    while (chosen < count && !isModel(paths[chosen])) {
+        ++chosen;
+    }
+    if (count > 0) {
+        free(window->dropped);
+        window->dropped = strdup(paths[chosen < count ? chosen : 0]);
+    }
+}
+#endif
 
 static void onResize(GLFWwindow* handle, int width, int height)
 {
@@ -151,6 +188,9 @@ vtResult vtCreateWindow(const char* title, int width, int height, vtWindow** out
     glfwSetCursorPosCallback(window->handle, onMove);
     glfwSetScrollCallback(window->handle, onScroll);
     glfwSetKeyCallback(window->handle, onKey);
+#if !defined(__EMSCRIPTEN__)
+    glfwSetDropCallback(window->handle, onDrop);
+#endif
     glfwSetFramebufferSizeCallback(window->handle, onResize);
     window->resized = true;
     *out = window;
@@ -162,6 +202,7 @@ void vtDestroyWindow(vtWindow* window)
     if (window != NULL) {
         glfwDestroyWindow(window->handle);
         glfwTerminate();
+        free(window->dropped);
         free(window);
     }
 }
@@ -190,6 +231,13 @@ vtWindowKeys vtWindow_TakeKeys(vtWindow* window)
     const vtWindowKeys keys = window->keys;
     window->keys = (vtWindowKeys){0};
     return keys;
+}
+
+char* vtWindow_TakeDropped(vtWindow* window)
+{
+    char* dropped = window->dropped;
+    window->dropped = NULL;
+    return dropped;
 }
 
 void vtWindow_SetTitle(vtWindow* window, const char* title)

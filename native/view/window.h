@@ -18,13 +18,18 @@ vtGetProcAddressFcn* vtWindow_GetProcAddress(void);
 /// changed or the window was resized since the last call.
 bool vtWindow_Poll(vtWindow* window, vtView* view);
 
-/// What the keys of an animation were pressed for since the last call.
+/// What the keys of an animation were pressed for since the last call, and how it was dragged.
 typedef struct vtWindowKeys {
-    int steps;  ///< right arrow 1, left arrow -1
-    bool pause; ///< space, an odd number of times
-    bool start; ///< home
+    int steps;    ///< right arrow 1, left arrow -1
+    bool pause;   ///< space, an odd number of times
+    bool start;   ///< home
+    double scrub; ///< along the window with the right button; 1 is its width
 } vtWindowKeys;
 vtWindowKeys vtWindow_TakeKeys(vtWindow* window);
+
+/// The file that was dropped on the window since the last call, for the caller to free; NULL: none. Of
+/// several it is the model, which may have come with its buffers and pictures.
+char* vtWindow_TakeDropped(vtWindow* window);
 
 void vtWindow_SetTitle(vtWindow* window, const char* title);
 

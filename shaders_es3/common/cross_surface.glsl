@@ -22,6 +22,17 @@ vec4 glassOf(uint id)
     return mix(vec4(1.0, 0.0, 0.0, 0.0), glass, bvec4(id != 0u));
 }
 
+#ifdef WITH_FAN
+// What a step of the spread does to the index of one medium over another's; eta: that.
+float etaChange(uint from, uint to, float eta)
+{
+    int first = max(int(from) - 1, 0), second = max(int(to) - 1, 0);
+    vec2 indices = vec2(readGlass(first).x, readGlass(second).x), there = vec2(from != 0u, to != 0u);
+    vec2 steps = there * vec2(indexChange(first, indices.x), indexChange(second, indices.y));
+    return (steps.x - eta * steps.y) / mix(1.0, indices.y, there.y); // over the index at 587.6 nm: nearly the same
+}
+#endif
+
 // What is left of the path's light after a distance in the medium it is in.
 void absorb(inout Path p, Media media, float distance)
 {
@@ -81,9 +92,12 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
 #ifdef WITH_FOOTPRINT
     p.footprint.place = alongSurface(p.footprint.place, I, G);
     float side = N == G ? 0.0 : leaving ? -1.0 : 1.0;
-    mat2x3 turn = side * (hit.turn * p.footprint.place);
-    mat2x3 steps = p.footprint.direction;
-    mat2x3 passed = bendFootprint(steps, I, N, turn, eta, reflected);
+    STEPS turn = side * (hit.turn * p.footprint.place);
+    STEPS steps = p.footprint.direction;
+    STEPS passed = bendFootprint(steps, I, N, turn, eta, reflected);
+#ifdef WITH_FAN
+    passed[2] += (1.0 - float(reflected)) * bentByIndex(I, N, eta, etaChange(topOf(media), topOf(next), eta));
+#endif
     p.footprint.direction = passed;
 #endif
     if (reflected) {
@@ -113,7 +127,7 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
             isKept = setAside(p, isMirrored ? T : R, isMirrored ? 1.0 - F : F, isMirrored ? next : media);
         }
 #ifdef WITH_FOOTPRINT
-        mat2x3 mirrored = bendFootprint(steps, I, N, turn, eta, true);
+        STEPS mirrored = bendFootprint(steps, I, N, turn, eta, true);
         p.asideFootprint.place = isKept ? p.footprint.place : p.asideFootprint.place;
         p.asideFootprint.direction = isKept ? (isMirrored ? passed : mirrored) : p.asideFootprint.direction;
         p.firstFootprint.place = isFirst ? p.footprint.place : p.firstFootprint.place;

@@ -3,8 +3,8 @@
 // what it mirrors: the path follows the strongest, the others are set aside. Takes the place of crossSurface. Needs
 // looks, media, objects, optics and path; of rough glass rough.
 
-#ifdef WITH_BACKDROP
-vec3 asHostShows(vec3 position, vec3 light); // backdrop.glsl
+#ifdef WITH_HOST
+vec3 asHostShows(vec3 position, vec3 light); // host_picture.glsl
 #endif
 
 // Takes the path through; `isLast`: it has no event left. False where it ends, `status` says how.
@@ -17,7 +17,7 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeti
     Start from = Start(p.position, I, media, object, met.triangle, false, false, false);
     vec3 covered = p.transmittance * look.base.a, beside = p.transmittance - covered;
     vec3 sent = sentLight(look, dot(N, I) < 0.0 ? N : G, I, from, met.at);
-#ifdef WITH_BACKDROP
+#ifdef WITH_HOST
     sent = mix(sent, asHostShows(p.position, sent), bvec3(object >= u_scene.x));
 #endif
     sent *= covered;
@@ -98,11 +98,15 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeti
     }
 #endif
 #ifdef WITH_FOOTPRINT
-    mat2x3 steps = p.footprint.direction;
+    STEPS steps = p.footprint.direction;
     p.footprint.place = isStraight ? p.footprint.place : alongSurface(p.footprint.place, I, G);
-    mat2x3 turn = (n == G ? 0.0 : leaving ? -1.0 : 1.0) * (hit.turn * p.footprint.place);
-    mat2x3 passed = isStraight ? steps : bendFootprint(steps, I, n, turn, eta, reflected);
-    mat2x3 turned = bendFootprint(steps, I, n, turn, 1.0, true);
+    STEPS turn = (n == G ? 0.0 : leaving ? -1.0 : 1.0) * (hit.turn * p.footprint.place);
+    STEPS passed = isStraight ? steps : bendFootprint(steps, I, n, turn, eta, reflected);
+    STEPS turned = bendFootprint(steps, I, n, turn, 1.0, true);
+#ifdef WITH_FAN
+    float isBentNow = (1.0 - float(isStraight)) * (1.0 - float(reflected));
+    passed[2] += isBentNow * bentByIndex(I, n, eta, etaChange(topOf(before), topOf(next), eta));
+#endif
 #endif
     // What the first surface reflects towards the eye is kept apart, as crossSurface does; nothing lies before it that took
     // light away.

@@ -79,7 +79,9 @@ Footprint lobeFootprint(Footprint steps, vec3 direction, vec3 lobe)
 {
     vec3 across = mix(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), step(0.7, abs(direction.x)));
     vec3 X = normalize(cross(across, direction));
-    mat2x3 plane = mat2x3(X, cross(direction, X));
+    STEPS plane = STEPS(0.0);
+    plane[0] = X;
+    plane[1] = cross(direction, X);
     bool isThere = lobe.z > 0.0;
     float place = lobeWidth(footprintWidth(steps.place), lobe.x), turn = lobeWidth(footprintWidth(steps.direction), lobe.z);
     return Footprint(isThere ? place * plane : steps.place, isThere ? turn * plane : steps.direction);

@@ -4,7 +4,9 @@
 //   JCGT 2013: what the wavelengths weigh.
 // Departures:
 // - The first sample follows red, green and blue at the mean index of what each of them sees, so that it has no noise.
-//   With fewer wavelengths (u_wavelengths) green and blue go together, or all three.
+//   With fewer wavelengths (u_wavelengths) green and blue go together, or all three. A path carries what a step of the
+//   index does to it (Igehy 1999, as footprint.glsl) then, and where it ends the environment is read along that: at
+//   eight wavelengths of the whole spectrum (WITH_FAN).
 // - The others follow wavelengths a third of the spectrum apart, shifted by another number in every pixel and sample.
 // Needs chance and objects.
 #define WITH_SPECTRAL
@@ -26,6 +28,13 @@ const vec4 SPECTRUM[32] = vec4[32](    vec4(0.4643, -0.4851, 3.7101, 1.4955),   
     vec4(3.5644, -0.0870, -0.0845, -0.1155),    vec4(3.4834, -0.2082, -0.0665, -0.1424),
     vec4(3.4257, -0.2955, -0.0535, -0.1704),    vec4(3.3837, -0.3577, -0.0442, -0.2017),
     vec4(3.3535, -0.3922, -0.0388, -0.2408),    vec4(3.4041, -0.2937, -0.0531, -0.3134));
+
+// The same of eight parts of the spectrum, of which each weighs an eighth of it.
+const vec4 FAN[8] = vec4[8](
+    vec4(0.0505, -0.0593, 0.4807, 1.2942), vec4(-0.0116, -0.0147, 0.5269, 0.9452),
+    vec4(-0.1820, 0.2407, 0.1181, 0.5761), vec4(-0.1518, 0.3629, -0.0310, 0.3421),
+    vec4(0.0942, 0.3804, -0.0507, 0.1560), vec4(0.3404, 0.1292, -0.0260, 0.0089),
+    vec4(0.4364, 0.0026, -0.0121, -0.1021), vec4(0.4240, -0.0418, -0.0059, -0.2316));
 
 uniform int u_wavelengths; // of the first sample, 1 to 3
 
@@ -59,5 +68,11 @@ vec3 startWavelength(int part)
 float dispersedIndex(int object, float ior)
 {
     float dispersion = uintBitsToFloat(objectBits(object, VT_OBJECT_IMAGES).w);
-    return dispersion > 0.0 ? max(ior + (ior - 1.0) * dispersion * 0.05 * g_spread, 1.0) : ior;
+    return mix(ior, max(ior + (ior - 1.0) * dispersion * 0.05 * g_spread, 1.0), step(1e-9, dispersion));
+}
+
+// What a step of the spread does to an object's index.
+float indexChange(int object, float ior)
+{
+    return (ior - 1.0) * 0.05 * uintBitsToFloat(objectBits(object, VT_OBJECT_IMAGES).w);
 }

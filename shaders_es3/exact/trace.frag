@@ -54,10 +54,11 @@ End noEnd(int status)
     return end;
 }
 
-// Where the host draws what is opaque, seen directly it covers nothing of the pixel.
+// Where the host draws what is opaque, seen directly it covers nothing of the pixel; glass that lets nothing through is not
+// drawn by the host.
 int leftToHost(bool isEye, int status)
 {
-#if defined(WITH_BACKDROP) && defined(WITH_OPAQUE)
+#if defined(WITH_HOST) && defined(WITH_OPAQUE)
     return isEye && status == VT_PATH_OPAQUE && (u_host.w & 16) != 0 ? VT_PATH_BACKGROUND : status;
 #else
     return status;
@@ -146,7 +147,7 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
             vec3 arriving = look.base.a * p.transmittance;
 #endif
             more = crossLook(p, media, look, hit, met, isLast, end.status);
-            end.status = leftToHost(start.isEye, end.status);
+            end.status = leftToHost(start.isEye && met.object >= u_scene.x, end.status);
             more = more && (p.events < u_search.w || media == AIR);
 #ifdef WITH_PHOTONS
             bool isLanding = end.status == VT_PATH_OPAQUE;
@@ -183,6 +184,29 @@ End followPath(inout Path p, Media media, bool isFresh, bool isDirect)
     return end;
 }
 
+#ifdef WITH_FAN
+// Light from beyond the scene along a path: of the first sample at eight wavelengths, whose paths lie beside it.
+vec3 spectralSurroundings(Path p, float width, vec3 lobe)
+{
+    vec3 turn = p.footprint.direction[2], place = p.footprint.place[2], light = vec3(0.0);
+    bool isFan = u_sample.y == 0 && dot(turn, turn) > 1e-8;
+    for (int i = 0; i < 8; ++i) {
+        vec4 part = mix(vec4(1.0, 1.0, 1.0, g_spread), FAN[i], bvec4(isFan));
+        float step = part.a - g_spread;
+        vec3 position = p.position + step * place, direction = normalize(p.direction + step * turn);
+#ifdef WITH_BACKDROP
+        light += part.rgb * surroundings(position, direction, width, lobe, p.footprint);
+#else
+        light += part.rgb * surroundings(position, direction, width, lobe);
+#endif
+        if (!isFan) {
+            break;
+        }
+    }
+    return light;
+}
+#endif
+
 // Light that a ray brings from its end; what is opaque there, if anything.
 vec3 lightAlong(Path p, End end)
 {
@@ -192,9 +216,16 @@ vec3 lightAlong(Path p, End end)
     width = footprintWidth(p.footprint.direction);
 #endif
 #ifdef WITH_ROUGH
-    vec3 light = surroundings(p.position, p.direction, width, p.lobe);
+    vec3 lobe = p.lobe;
 #else
-    vec3 light = surroundings(p.position, p.direction, width, vec3(0.0)); // a lost path sees it, too
+    const vec3 lobe = vec3(0.0);
+#endif
+#if defined(WITH_FAN)
+    vec3 light = spectralSurroundings(p, width, lobe);
+#elif defined(WITH_BACKDROP)
+    vec3 light = surroundings(p.position, p.direction, width, lobe, p.footprint); // a lost path sees it, too
+#else
+    vec3 light = surroundings(p.position, p.direction, width, lobe);
 #endif
 #if defined(WITH_OPAQUE) && !defined(WITH_LOOKS)
     if (opaque.triangle != VT_NO_TRIANGLE) {
@@ -223,7 +254,7 @@ vec3 lightAlong(Path p, End end)
 #else
         light = shadeOpaque(opaque.object, at, p.direction, 0.0); // no picture is seen
 #endif
-#ifdef WITH_BACKDROP
+#ifdef WITH_HOST
         light = asHostShows(p.position, light);
 #endif
     }

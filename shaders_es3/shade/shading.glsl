@@ -158,7 +158,7 @@ vec3 shadeOpaque(int object, OpaqueSurface at, vec3 I, float footprint)
     vec4 surface = objectNumbers(object, VT_OBJECT_SURFACE);
     uvec4 images = objectBits(object, VT_OBJECT_IMAGES);
 #ifdef WITH_FOOTPRINT
-    mat2x3 place = alongSurface(steps.place, I, at.flatNormal);
+    STEPS place = alongSurface(steps.place, I, at.flatNormal);
     float footprint = footprintWidth(place);
 #endif
     float level = imageLevel(footprint, at.areaOfTexture, at.area);
@@ -175,7 +175,7 @@ vec3 shadeOpaque(int object, OpaqueSurface at, vec3 I, float footprint)
 
     float cosine = -dot(N, I), width = 0.0;
 #ifdef WITH_FOOTPRINT
-    mat2x3 turn = (isSmooth ? side : 0.0) * (at.turn * place);
+    STEPS turn = (isSmooth ? side : 0.0) * (at.turn * place);
     width = footprintWidth(bendFootprint(steps.direction, I, N, turn, 1.0, true));
     roughness = widened(roughness, width);
 #endif

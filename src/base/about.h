@@ -16,6 +16,13 @@
 #define VT_WITH_FILES 0
 #endif
 
+/// How a user allows more than vtLimits does, in a sentence; pages have the default.
+#ifndef __EMSCRIPTEN__
+#define VT_ALLOW(option) ", or allow more (" option ", vtLimits)"
+#else
+#define VT_ALLOW(option) ""
+#endif
+
 /// Views as matrices, and pictures of a host's: vtFrame.viewMatrix, overlay and hostColor. A page's element
 /// has its canvas to itself, and goes without what it does not use; the build for three.js says 1.
 #ifndef VT_WITH_HOST
@@ -24,6 +31,13 @@
 #else
 #define VT_WITH_HOST 0
 #endif
+#endif
+
+/// A picture behind the scene, and panes before one: not in pages yet.
+#ifndef __EMSCRIPTEN__
+#define VT_WITH_BACKDROP 1
+#else
+#define VT_WITH_BACKDROP 0
 #endif
 
 /// A ground, and files that are animated: a page loads another core once it needs one of them, which says 1.

@@ -152,11 +152,16 @@ vtResult vtEnvironmentBuffer_Blur(vtEnvironmentBuffer* buffer, const vtGL* gl, f
     return result;
 }
 
-void vtEnvironmentBuffer_Destroy(vtEnvironmentBuffer* buffer, const vtGL* gl)
+void vtEnvironmentBuffer_DropLight(vtEnvironmentBuffer* buffer, const vtGL* gl)
 {
-    vtTexture_Destroy(&buffer->picture, gl);
     vtTexture_Destroy(&buffer->lighting, gl);
     vtTexture_Destroy(&buffer->blurred, gl);
+}
+
+void vtEnvironmentBuffer_Destroy(vtEnvironmentBuffer* buffer, const vtGL* gl)
+{
+    vtEnvironmentBuffer_DropLight(buffer, gl);
+    vtTexture_Destroy(&buffer->picture, gl);
     vtDestroyEnvironment(&buffer->light);
     *buffer = (vtEnvironmentBuffer){0};
 }

@@ -28,5 +28,7 @@ void vtEnvironmentBuffer_FindSun(vtEnvironmentBuffer* buffer);
 vtResult vtEnvironmentBuffer_Light(vtEnvironmentBuffer* buffer, const vtGL* gl, bool sunless, vtError* error);
 /// Makes buffer->blurred, by so many degrees. Does nothing where it is there.
 vtResult vtEnvironmentBuffer_Blur(vtEnvironmentBuffer* buffer, const vtGL* gl, float degrees, vtError* error);
+/// What vtEnvironmentBuffer_Light and vtEnvironmentBuffer_Blur have made.
+void vtEnvironmentBuffer_DropLight(vtEnvironmentBuffer* buffer, const vtGL* gl);
 void vtEnvironmentBuffer_Destroy(vtEnvironmentBuffer* buffer, const vtGL* gl);
 size_t vtEnvironmentBuffer_Bytes(const vtEnvironmentBuffer* buffer);

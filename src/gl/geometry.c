@@ -40,24 +40,26 @@ static uint64_t trianglesOf(const vtGeometryStore* store)
 }
 
 /// Copies what `from` holds into the first rows of `to`, of the same width.
-static void copyRows(const vtGL* gl, const vtTexture* from, const vtTexture* to)
+static vtResult copyRows(const vtGL* gl, const vtTexture* from, const vtTexture* to, vtError* error)
 {
     GLuint framebuffer = 0;
-    vtError error;
-    if (vtMakeFramebuffer(gl, "records", &(vtAttachment){from, 0}, 1, NULL, &framebuffer, &error) == vt_ok) {
+    const vtResult result =
+        vtMakeFramebuffer(gl, "records", &(vtAttachment){from, 0}, 1, NULL, &framebuffer, error);
+    if (result == vt_ok) {
         vtTexture_Bind(to, gl, 0);
         gl->CopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, from->width, from->height);
     }
     vtDestroyFramebuffers(gl, &framebuffer, 1);
+    return result;
 }
 
 /// A texture of at least so many records that holds what the one before held. It grows by half of itself at
-/// least.
-static void growTexture(vtTexture* texture, const vtGL* gl, uint64_t records)
+/// least. On failure it is as before.
+static vtResult growTexture(vtTexture* texture, const vtGL* gl, uint64_t records, vtError* error)
 {
     const uint64_t rows = (records + VT_RECORDS_A_ROW - 1) / VT_RECORDS_A_ROW;
     if (texture->name != 0 && rows <= (uint64_t)texture->height) {
-        return;
+        return vt_ok;
     }
     vtTexture before = *texture;
     *texture = (vtTexture){0};
@@ -65,10 +67,11 @@ static void growTexture(vtTexture* texture, const vtGL* gl, uint64_t records)
     wanted = wanted > rows ? wanted : rows;
     wanted = wanted * VT_RECORDS_A_ROW > mostRecords(gl) ? rows : wanted;
     vtTexture_SizeRecords(texture, gl, (uint32_t)(wanted * VT_RECORDS_A_ROW));
-    if (before.name != 0) {
-        copyRows(gl, &before, texture);
-        vtTexture_Destroy(&before, gl);
-    }
+    vtResult result = before.name != 0 ? copyRows(gl, &before, texture, error) : vt_ok;
+    result = result == vt_ok ? vtCheckGL(gl, "making room for triangles", error) : result;
+    vtTexture_Destroy(result == vt_ok ? &before : texture, gl);
+    *texture = result == vt_ok ? *texture : before;
+    return result;
 }
 
 static vtRecordRange rangeOf(const vtGeometryBuffer* item, bool attributes)
@@ -133,9 +136,10 @@ static vtResult takeRange(vtGeometryStore* store, const vtGL* gl, const vtMesh* 
     if (at + count > mostRecords(gl)) {
         return failTooMany(gl, mesh, trianglesOf(store) + mesh->indexCount / 3, error);
     }
-    growTexture(attributes ? &store->attributes : &store->records, gl, at + count);
-    *range = (vtRecordRange){(uint32_t)at, count};
-    return vt_ok;
+    const vtResult result =
+        growTexture(attributes ? &store->attributes : &store->records, gl, at + count, error);
+    *range = (vtRecordRange){(uint32_t)at, result == vt_ok ? count : 0};
+    return result;
 }
 
 // ----------------------------------------------------------------------------------------------- upload
@@ -220,7 +224,7 @@ static vtResult uploadAttributes(vtGeometryStore* store, const vtGL* gl, const v
 
 static void copyPlan(vtGeometryBuffer* item, const vtHierarchy* hierarchy)
 {
-    item->origin = hierarchy->origin;
+    item->space = hierarchy->space;
     item->gridLow = hierarchy->gridLow;
     item->gridScale = hierarchy->gridScale;
     item->builds = hierarchy->builds;
@@ -264,7 +268,7 @@ static vtResult uploadTriangles(vtGeometryStore* store, const vtGL* gl, const vt
         result = uploadAttributes(store, gl, mesh, hierarchy, item->attributes, error);
     }
     if (result == vt_ok) {
-        result = vtMeshBuffer_Create(&item->vertices, gl, mesh, item->origin, error);
+        result = vtMeshBuffer_Create(&item->vertices, gl, mesh, &item->space, error);
     }
     if (result == vt_ok) {
         vtTexture_SetRecords(&store->records, gl, item->records.first, item->records.count,
@@ -306,11 +310,11 @@ static void freeItem(vtGeometryBuffer* item, const vtGL* gl)
 static vtResult upload(vtGeometryStore* store, const vtGL* gl, const vtMesh* mesh, vtGeometryUse use,
                        vtGeometryBuffer* item, vtError* error)
 {
-    vtResult result = vt_ok;
-    *item = (vtGeometryBuffer){.isThere = true};
-    growTexture(&store->records, gl, 0); // shaders may read a texel whatever there is
-    growTexture(&store->attributes, gl, 0);
-    if (use.any && mesh->indexCount > 0) {
+    *item = (vtGeometryBuffer){.isThere = true, .space = vtOuterSpace()};
+    vtResult result =
+        growTexture(&store->records, gl, 0, error); // shaders may read a texel whatever there is
+    result = result == vt_ok ? growTexture(&store->attributes, gl, 0, error) : result;
+    if (result == vt_ok && use.any && mesh->indexCount > 0) {
         vtHierarchy built;
         const vtHierarchy* hierarchy;
         result = findHierarchy(gl, mesh, &built, &hierarchy, error);
@@ -383,11 +387,8 @@ static vtResult prepareAll(vtGeometryStore* store, const vtGL* gl, const vtMesh*
             result = records <= mostRecords(gl) ? vt_ok : failTooMany(gl, &meshes[i], triangles, error);
         }
     }
-    if (result == vt_ok) {
-        growTexture(&store->records, gl, records);
-        growTexture(&store->attributes, gl, attributes);
-    }
-    return result;
+    result = result == vt_ok ? growTexture(&store->records, gl, records, error) : result;
+    return result == vt_ok ? growTexture(&store->attributes, gl, attributes, error) : result;
 }
 
 vtResult vtGeometryStore_AddAll(vtGeometryStore* store, const vtGL* gl, const vtMesh* meshes, uint32_t count,
@@ -422,7 +423,7 @@ vtResult vtGeometryStore_Update(vtGeometryStore* store, const vtGL* gl, uint32_t
                       store->shapes[index].indexCount == mesh->indexCount &&
                       hadHeights == (mesh->heights != NULL) && mesh->tangents == NULL &&
                       (item->attributes.count == 0 || item->builds == hierarchy->builds) &&
-                      vtMeshBuffer_Update(&item->vertices, gl, mesh, hierarchy->origin);
+                      vtMeshBuffer_Update(&item->vertices, gl, mesh, &hierarchy->space);
     if (fits) {
         copyPlan(item, hierarchy);
         item->overlaps = vtHierarchy_Overlaps(hierarchy);

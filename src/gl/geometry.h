@@ -3,6 +3,7 @@
 // to rounding far from the origin.
 #pragma once
 
+#include "base/space.h"
 #include "gl/height_texture.h"
 #include "gl/mesh_buffer.h"
 #include "gl/target.h"
@@ -29,7 +30,7 @@ typedef struct vtGeometryBuffer {
     vtRecordRange attributes;
     bool colored;              ///< it has colours
     uint32_t builds;           ///< of the hierarchy, whose corners the attributes are in the order of
-    vtVec3 origin;             ///< of the own coordinates, in the mesh's
+    vtSpace space;             ///< the own coordinates
     vtVec3 gridLow, gridScale; ///< of the hierarchy's boxes (mesh/hierarchy.h)
     bool overlaps;             ///< glass: parts run into each other
     vtHeightTexture heights;   ///< of a relief that uses them

@@ -99,7 +99,12 @@ vtResult vtCheckGL(const vtGL* gl, const char* doing, vtError* error)
     if (first == GL_NO_ERROR) {
         return vtSucceed(error);
     }
-    vtResult result = first == GL_OUT_OF_MEMORY ? vt_errorMemory : vt_errorContext;
+    if (first == 0x0507 || first == 0x9242) { // GL_CONTEXT_LOST, CONTEXT_LOST_WEBGL
+        return vtFail(error, vt_errorContext,
+                      "GL: the context was lost while %s; make another one, and another renderer in it",
+                      doing);
+    }
+    const vtResult result = first == GL_OUT_OF_MEMORY ? vt_errorMemory : vt_errorContext;
     return vtFail(error, result, "GL: %s while %s", errorName(first), doing);
 }
 

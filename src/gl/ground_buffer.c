@@ -6,8 +6,7 @@
 #include "base/memory.h"
 #include "gl/picture_texture.h"
 
-vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGroundMap* map, vtVec3 origin,
-                            vtError* error)
+vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGroundMap* map, vtError* error)
 {
     const size_t count = (size_t)VT_GROUND_SIDE * VT_GROUND_SIDE;
     float* texels = vtAllocate(count, 4 * sizeof *texels);
@@ -28,8 +27,7 @@ vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGrou
     vtTexture_Bind(&buffer->map, gl, vt_samplerNone);
     gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, VT_GROUND_SIDE, VT_GROUND_SIDE, GL_RGBA, GL_FLOAT, texels);
     vtFree(texels);
-    const float place[4] = {map->height - origin.y, map->lowX - origin.x, map->lowZ - origin.z,
-                            1.0f / map->size};
+    const float place[4] = {map->height, map->lowX, map->lowZ, 1.0f / map->size};
     const vtVec3 color = map->color, light = map->irradiance;
     const float matt[8] = {color.x, color.y, color.z, map->matt ? 1.0f : 0.0f,
                            light.x, light.y, light.z, 0.0f};

@@ -12,9 +12,8 @@ typedef struct vtGroundBuffer {
     float matt[8];      ///< its colour, 1: it is matt; irradiance, but for lights of files; 0
 } vtGroundBuffer;
 
-/// `origin`: of the world that shaders know, in the map's. Fails with vt_errorMemory.
-vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGroundMap* map, vtVec3 origin,
-                            vtError* error);
+/// Fails with vt_errorMemory.
+vtResult vtGroundBuffer_Set(vtGroundBuffer* buffer, const vtGL* gl, const vtGroundMap* map, vtError* error);
 /// The light on opaque things. Fails with vt_errorContext where the GPU has no texture of that size.
 vtResult vtGroundBuffer_SetCaustics(vtGroundBuffer* buffer, const vtGL* gl, const vtCausticMap* map,
                                     vtError* error);

@@ -34,7 +34,7 @@ vtResult vtHeightTexture_Create(vtHeightTexture* texture, const vtGL* gl, const 
                           vtHeightField_TileRows(field, level), GL_RG, GL_FLOAT,
                           field->ranges + field->starts[level]);
     }
-    return vtSucceed(error);
+    return vtCheckGL(gl, "uploading the relief", error);
 }
 
 void vtHeightTexture_Destroy(vtHeightTexture* texture, const vtGL* gl)

@@ -24,10 +24,10 @@ uint32_t vtMaterialTable_First(uint32_t lightCount)
     return (1 + 3 * clampLights(lightCount) + VT_MATERIAL_TEXELS - 1) / VT_MATERIAL_TEXELS;
 }
 
-static void writeLight(const vtLight* light, vtVec3 origin, uint32_t* words)
+static void writeLight(const vtLight* light, uint32_t* words)
 {
     const bool spot = light->kind == vt_lightSpot;
-    const vtVec3 at = vtSub(light->position, origin), d = light->direction, c = light->color;
+    const vtVec3 at = light->position, d = light->direction, c = light->color;
     const float inner = spot ? cosf(light->innerCone) : -1.0f, outer = spot ? cosf(light->outerCone) : -2.0f;
     write(words, 0, at.x, at.y, at.z, light->kind == vt_lightDirectional ? -1.0f : light->range);
     write(words, 1, d.x, d.y, d.z, inner);
@@ -73,7 +73,7 @@ static void writeMaterial(const vtObjectBuffer* object, const vtImageArray* imag
 
 vtResult vtMaterialTable_Upload(vtTexture* table, const vtGL* gl, const vtObjectBuffer* objects,
                                 uint32_t count, const vtLight* lights, uint32_t lightCount,
-                                const vtImageArray* images, vtVec3 origin, vtError* error)
+                                const vtImageArray* images, vtError* error)
 {
     const uint32_t first = vtMaterialTable_First(lightCount), drawn = clampLights(lightCount);
     const uint32_t rows =
@@ -84,7 +84,7 @@ vtResult vtMaterialTable_Upload(vtTexture* table, const vtGL* gl, const vtObject
     }
     words[0] = drawn;
     for (uint32_t i = 0; i < drawn; ++i) {
-        writeLight(&lights[i], origin, words + 4 * (1 + 3 * (size_t)i));
+        writeLight(&lights[i], words + 4 * (1 + 3 * (size_t)i));
     }
     for (uint32_t i = 0; i < count; ++i) {
         writeMaterial(&objects[i], images, words + 4 * VT_MATERIAL_TEXELS * (size_t)(first + i));

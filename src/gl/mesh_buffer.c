@@ -2,17 +2,17 @@
 
 #include "base/error.h"
 
-/// Into the buffer that is bound: positions from the origin, then normals. False where memory is out.
-static bool uploadVertices(const vtGL* gl, const vtMesh* mesh, vtVec3 origin)
+/// Into the buffer that is bound: positions in the space, then normals. False where memory is out.
+static bool uploadVertices(const vtGL* gl, const vtMesh* mesh, const vtSpace* space)
 {
     const size_t bytes = 3 * sizeof(float) * (size_t)mesh->vertexCount;
     float* positions = vtAllocate(1, bytes);
     if (positions == NULL) {
         return false;
     }
-    const float from[3] = {origin.x, origin.y, origin.z};
+    const float from[3] = {space->origin.x, space->origin.y, space->origin.z};
     for (size_t i = 0; i < 3 * (size_t)mesh->vertexCount; ++i) {
-        positions[i] = mesh->positions[i] - from[i % 3];
+        positions[i] = (mesh->positions[i] - from[i % 3]) * space->unit;
     }
     gl->BufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)bytes, positions);
     gl->BufferSubData(GL_ARRAY_BUFFER, (GLintptr)bytes, (GLsizeiptr)bytes, mesh->normals);
@@ -20,7 +20,22 @@ static bool uploadVertices(const vtGL* gl, const vtMesh* mesh, vtVec3 origin)
     return true;
 }
 
-bool vtMeshBuffer_Update(const vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtVec3 origin)
+/// Into the buffer that is bound. False where memory is out.
+static bool uploadDistances(const vtGL* gl, const vtMesh* mesh, const vtSpace* space)
+{
+    float* distances = vtAllocate(mesh->vertexCount, sizeof *distances);
+    for (size_t i = 0; i < mesh->vertexCount && distances != NULL; ++i) {
+        distances[i] = mesh->innerDistances[i] * space->unit;
+    }
+    const GLsizeiptr bytes = (GLsizeiptr)(sizeof *distances * mesh->vertexCount);
+    if (distances != NULL) {
+        gl->BufferData(GL_ARRAY_BUFFER, bytes, distances, GL_STATIC_DRAW);
+    }
+    vtFree(distances);
+    return distances != NULL;
+}
+
+bool vtMeshBuffer_Update(const vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, const vtSpace* space)
 {
     if (buffer->vertexCount != mesh->vertexCount ||
         (buffer->distances == 0) != (mesh->innerDistances == NULL)) {
@@ -28,14 +43,15 @@ bool vtMeshBuffer_Update(const vtMeshBuffer* buffer, const vtGL* gl, const vtMes
     }
     if (mesh->innerDistances != NULL) {
         gl->BindBuffer(GL_ARRAY_BUFFER, buffer->distances);
-        gl->BufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)(sizeof(float) * mesh->vertexCount),
-                          mesh->innerDistances);
+        if (!uploadDistances(gl, mesh, space)) {
+            return false;
+        }
     }
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
-    return uploadVertices(gl, mesh, origin);
+    return uploadVertices(gl, mesh, space);
 }
 
-vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtVec3 origin,
+vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, const vtSpace* space,
                              vtError* error)
 {
     size_t attributeBytes = 3 * sizeof(float) * (size_t)mesh->vertexCount;
@@ -50,7 +66,7 @@ vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh*
     gl->GenBuffers(1, &buffer->vertices);
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * attributeBytes), NULL, GL_STATIC_DRAW);
-    const bool uploaded = uploadVertices(gl, mesh, origin);
+    bool uploaded = uploadVertices(gl, mesh, space);
     gl->EnableVertexAttribArray(0);
     gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, (const void*)0);
     gl->EnableVertexAttribArray(1);
@@ -58,8 +74,7 @@ vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh*
     if (mesh->innerDistances != NULL) {
         gl->GenBuffers(1, &buffer->distances);
         gl->BindBuffer(GL_ARRAY_BUFFER, buffer->distances);
-        gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(attributeBytes / 3), mesh->innerDistances,
-                       GL_STATIC_DRAW);
+        uploaded = uploadDistances(gl, mesh, space) && uploaded;
         gl->EnableVertexAttribArray(2);
         gl->VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, 0, (const void*)0);
         buffer->bytes += attributeBytes / 3;

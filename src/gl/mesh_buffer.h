@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/space.h"
 #include "gl/target.h"
 
 /// A mesh on the GPU: indexed triangles, position at attribute 0, normal at 1, inner distance at 2
@@ -11,11 +12,12 @@ typedef struct vtMeshBuffer {
     size_t bytes;
 } vtMeshBuffer;
 
-/// `origin`: of the positions on the GPU, in the mesh's coordinates.
-vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtVec3 origin,
+/// `space`: that of the positions on the GPU.
+vtResult vtMeshBuffer_Create(vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, const vtSpace* space,
                              vtError* error);
 /// New positions and normals; false where there are not as many, or inner distances would be of the old ones,
 /// or memory is out.
-bool vtMeshBuffer_Update(const vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh, vtVec3 origin);
+bool vtMeshBuffer_Update(const vtMeshBuffer* buffer, const vtGL* gl, const vtMesh* mesh,
+                         const vtSpace* space);
 void vtMeshBuffer_Draw(const vtMeshBuffer* buffer, const vtGL* gl);
 void vtMeshBuffer_Destroy(vtMeshBuffer* buffer, const vtGL* gl);

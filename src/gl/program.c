@@ -47,6 +47,7 @@ static const char* const samplerNames[vt_samplerCount] = {
     [vt_samplerHostColor] = "u_hostColor",
     [vt_samplerHostDepth] = "u_hostDepth",
     [vt_samplerBackground] = "u_background",
+    [vt_samplerBackdrop] = "u_backdrop",
     [vt_samplerGround] = "u_groundMap",
     [vt_samplerGroundLights] = "u_groundLights",
     [vt_samplerCaustics] = "u_caustics",

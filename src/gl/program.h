@@ -8,8 +8,8 @@ typedef struct vtChunk {
     const char* source; ///< NULL: it is in vtGL.laterShaders, where a page has loaded those
 } vtChunk;
 
-#define VT_MAX_CHUNKS 38
-#define VT_MAX_UNIFORMS 5
+#define VT_MAX_CHUNKS 40
+#define VT_MAX_UNIFORMS 6
 
 /// What a program is made of: its chunks in order, after {version, precision, constants, frame}.
 typedef struct vtProgramDef {

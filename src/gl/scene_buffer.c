@@ -78,11 +78,10 @@ static void findBoxes(vtSceneBuffer* buffer)
 /// Objects in the coordinates they are drawn in, from the middle of the scene and of their meshes.
 static void keepObjects(vtSceneBuffer* buffer, const vtPlacedObject* placed)
 {
-    vtVec3 low = {FLT_MAX, FLT_MAX, FLT_MAX}, high = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
-    for (uint32_t i = 0; i < buffer->objectCount; ++i) {
-        extend(&low, &high, &placed[i]);
+    buffer->space = vtSpaceOfObjects(placed, buffer->objectCount);
+    for (uint32_t i = 0; i < buffer->lightCount; ++i) {
+        buffer->placedLights[i] = vtLight_Enter(&buffer->lights[i], &buffer->space);
     }
-    buffer->origin = vtScale(vtAdd(low, high), 0.5f);
     bool looks = buffer->lightCount > 0;
     for (uint32_t i = 0; i < buffer->objectCount; ++i) {
         const vtGeometryBuffer* geometry = &buffer->geometry.items[placed[i].meshIndex];
@@ -94,8 +93,8 @@ static void keepObjects(vtSceneBuffer* buffer, const vtPlacedObject* placed)
             .placed = placed[i],
             .material = *placed[i].material,
             .geometry = placed[i].meshIndex,
-            .ownMin = vtSub(shape->boundsMin, geometry->origin),
-            .ownMax = vtSub(shape->boundsMax, geometry->origin),
+            .ownMin = vtSpace_Enter(&geometry->space, shape->boundsMin),
+            .ownMax = vtSpace_Enter(&geometry->space, shape->boundsMax),
             .firstAttribute = any ? geometry->attributes.first : VT_NO_TRIANGLE,
             .firstMore = any && geometry->attributes.count > geometry->records.count
                              ? geometry->attributes.first + geometry->records.count
@@ -108,7 +107,7 @@ static void keepObjects(vtSceneBuffer* buffer, const vtPlacedObject* placed)
         };
         looks = looks || placed[i].thin || !vtMaterial_IsPlain(material, geometry->colored) ||
                 (!material->opaque && buffer->instances[placed[i].object].body != 0);
-        vtPlacedObject_Recentre(&object->placed, geometry->origin, buffer->origin);
+        vtPlacedObject_Enter(&object->placed, &geometry->space, &buffer->space);
     }
     buffer->hasLooks = looks;
     findBoxes(buffer);
@@ -123,8 +122,8 @@ static uint32_t findRelief(const vtSceneBuffer* buffer)
             break;
         }
         const uint32_t geometry = buffer->objects[i].geometry;
-        relief =
-            buffer->geometry.items[geometry].heights.cell > 0.0f && geometry < relief ? geometry : relief;
+        const bool isRelief = buffer->geometry.items[geometry].heights.cell > 0.0f;
+        relief = isRelief && geometry < relief ? geometry : relief;
     }
     return relief;
 }
@@ -181,9 +180,8 @@ vtResult vtSceneBuffer_Place(vtSceneBuffer* buffer, const vtGL* gl, vtError* err
         result = vtImageArray_Upload(&buffer->images, gl, &(vtScene){0}, error);
     }
     if (result == vt_ok && buffer->hasLooks) {
-        result =
-            vtMaterialTable_Upload(&buffer->looks, gl, buffer->objects, buffer->objectCount, buffer->lights,
-                                   buffer->lightCount, &buffer->images, buffer->origin, error);
+        result = vtMaterialTable_Upload(&buffer->looks, gl, buffer->objects, buffer->objectCount,
+                                        buffer->placedLights, buffer->lightCount, &buffer->images, error);
     }
     buffer->isStale = result != vt_ok;
     return result;
@@ -234,8 +232,10 @@ static vtResult addScene(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* s
     }
     if (result == vt_ok && scene->lightCount > 0) {
         buffer->lights = vtAllocate(scene->lightCount, sizeof *buffer->lights);
-        buffer->lightCount = buffer->lights != NULL ? scene->lightCount : 0;
-        if (buffer->lights == NULL) {
+        buffer->placedLights = vtAllocate(scene->lightCount, sizeof *buffer->placedLights);
+        const bool ready = buffer->lights != NULL && buffer->placedLights != NULL;
+        buffer->lightCount = ready ? scene->lightCount : 0;
+        if (!ready) {
             result = vtFail(error, vt_errorMemory, "scene: out of memory for %u lights", scene->lightCount);
         } else {
             memcpy(buffer->lights, scene->lights, scene->lightCount * sizeof *buffer->lights);
@@ -262,8 +262,17 @@ vtResult vtSceneBuffer_Create(vtSceneBuffer* buffer, const vtGL* gl, const vtSce
     return result;
 }
 
+void vtSceneBuffer_DropTables(vtSceneBuffer* buffer, const vtGL* gl)
+{
+    vtTexture_Destroy(&buffer->tree, gl);
+    vtTexture_Destroy(&buffer->looks, gl);
+    vtTexture_Destroy(&buffer->table, gl);
+    buffer->isStale = true;
+}
+
 void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl)
 {
+    vtSceneBuffer_DropTables(buffer, gl);
     vtGeometryStore_Destroy(&buffer->geometry, gl);
     vtFree(buffer->instances);
     vtFree(buffer->materials);
@@ -271,11 +280,9 @@ void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl)
     vtFree(buffer->words);
     vtFree(buffer->fresh);
     vtFree(buffer->order);
-    vtTexture_Destroy(&buffer->tree, gl);
     vtImageArray_Destroy(&buffer->images, gl);
     vtFree(buffer->lights);
-    vtTexture_Destroy(&buffer->looks, gl);
-    vtTexture_Destroy(&buffer->table, gl);
+    vtFree(buffer->placedLights);
     *buffer = (vtSceneBuffer){.relief = VT_NO_GEOMETRY};
 }
 

@@ -31,7 +31,8 @@ typedef struct vtSceneBuffer {
     vtObjectBuffer* objects; ///< by rank: glass, then what is opaque
     uint32_t objectCount, glassCount;
     uint32_t* order;           ///< of the glass, from an eye: vtSceneBuffer_SortGlass
-    vtVec3 origin;             ///< the middle of the scene, in the caller's world
+    vtSpace space;             ///< the world of shaders, in the caller's
+    vtLight* placedLights;     ///< in it
     vtVec3 glassMin, glassMax; ///< box of the glass, or of all where there is none; world
     vtVec3 low, high;          ///< of all
     uint32_t
@@ -46,6 +47,8 @@ typedef struct vtSceneBuffer {
 /// Uploads a scene and places it; geometry and instances are numbered as the scene's meshes and objects.
 /// *buffer need not be initialised. On failure it is zeroed.
 vtResult vtSceneBuffer_Create(vtSceneBuffer* buffer, const vtGL* gl, const vtScene* scene, vtError* error);
+/// What is made of the objects anew by vtSceneBuffer_Place and vtSceneBuffer_SetTable.
+void vtSceneBuffer_DropTables(vtSceneBuffer* buffer, const vtGL* gl);
 void vtSceneBuffer_Destroy(vtSceneBuffer* buffer, const vtGL* gl);
 
 /// Adds an instance behind the others; its mesh is a geometry's index, its material's number is not looked

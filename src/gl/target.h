@@ -54,6 +54,7 @@ typedef enum vtSampler {
     vt_samplerHostColor,
     vt_samplerHostDepth,
     vt_samplerBackground,
+    vt_samplerBackdrop,
     vt_samplerGround,
     vt_samplerGroundLights,
     vt_samplerCaustics,

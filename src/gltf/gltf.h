@@ -4,6 +4,7 @@
 #include "gltf/rig.h"
 
 extern "C" {
+#include "base/limits.h"
 #include "base/memory.h"
 #include "gltf/features.h"
 }
@@ -112,7 +113,10 @@ struct Compressed {
 struct Picture {
     std::string name = {}, uri = {};
     int bufferView = -1;
-    int image = -1; // in the scene
+    int image = -1;                     // in the scene
+    std::vector<uint8_t> contents = {}; // of a file or an address, until it is decoded
+    Bytes bytes = {};
+    bool isChecked = false; // it was opened and its header looked at
 };
 
 /// A source, a camera or a light of the file where a node puts it.
@@ -123,9 +127,6 @@ struct Placement {
     bool isFixed = false; // not by the node, but by joints
 };
 
-/// Bytes that one model's files of their own, and what is unpacked, may take together.
-const uint64_t mostExternalBytes = (uint64_t)1 << 31;
-
 /// What one call of vtOpenModel has so far.
 struct Loader : Report {
     const vtModelDef* def;
@@ -135,8 +136,9 @@ struct Loader : Report {
     tinygltf::Model model = {}; // without its buffers and images, which are these:
     std::vector<Bytes> buffers = {};
     std::vector<std::vector<uint8_t>> ownedBuffers = {}; // bytes that `def` does not hold
-    uint64_t budget = mostExternalBytes;                 // what is left of it
-    std::vector<Compressed> compressed = {};             // as many as model.bufferViews, or none
+    vtLimits limits = vtResolveLimits(&def->limits);
+    vtLimits left = limits;                  // of memory and triangles
+    std::vector<Compressed> compressed = {}; // as many as model.bufferViews, or none
     std::vector<Skin> skins = {};
     std::vector<size_t> reachedNodes = {}; // of the scene, in the order in which it names them
     std::vector<Picture> pictures = {};
@@ -150,6 +152,8 @@ struct Loader : Report {
     std::string notes = {};                                           // what note was told, a line each
     int variant = -1;                                                 // of `variants`
     int primitivesWithoutTriangles = 0, turnedMeshes = 0;
+    std::vector<int> parents = {};    // of each node, -1 where it has none; the last that names it
+    std::vector<uint8_t> placed = {}; // is the node in rig.order?
 
     /// Tells what is left out of the picture: "normal maps of 2 materials". All that a file leaves out makes
     /// one line.
@@ -158,8 +162,11 @@ struct Loader : Report {
     /// Tells what else is worth knowing, a line by itself: "2 meshes were inside out".
     void note(const char* format, ...) VT_PRINTF(2, 3);
 
-    /// Takes bytes off the budget, or fails where it is used up.
+    /// Takes bytes off what is left of the memory, or fails where it is used up.
     bool spend(uint64_t bytes, const std::string& what);
+
+    /// The same of triangles.
+    bool spendTriangles(uint64_t count);
 
     /// Is `index` one of `count`? Else fails.
     bool has(const char* what, int index, size_t count);
@@ -191,6 +198,9 @@ std::string counted(size_t count, const char* what);
 /// Fills model, buffers and pictures. `bin` is the container's BIN chunk, if any.
 bool parseDocument(Loader& loader, Bytes text, Bytes bin);
 
+/// Fails where the structure of a JSON text would take too much memory once it is parsed.
+bool checkStructure(Loader& loader, Bytes text);
+
 /// Reads the file at a uri that is none of data; `what` is a buffer or a picture.
 bool readExternal(Loader& loader, const char* what, const std::string& uri, std::vector<uint8_t>* bytes);
 
@@ -211,8 +221,8 @@ bool decodeView(Loader& loader, const std::string& what, const Compressed& view,
 /// Unpacks a primitive (KHR_draco_mesh_compression): streams for its attributes, and "" for the indices.
 bool decodePrimitive(Loader& loader, const tinygltf::Primitive& primitive, Streams* streams);
 
-/// The bytes of a picture's file: its own, or `contents`, which is filled then.
-bool openPicture(Loader& loader, int index, std::vector<uint8_t>* contents, Bytes* bytes);
+/// Fills the bytes of a picture, and its contents where they lie in no buffer.
+bool openPicture(Loader& loader, int index);
 
 /// The number of a texture's picture: that of an extension which is drawn (features.h), else the texture's
 /// own.
@@ -240,6 +250,9 @@ bool findVariant(Loader& loader, int* variant);
 /// The material of a primitive in that variant.
 int materialOf(const tinygltf::Primitive& primitive, int variant);
 
+/// Counts what a primitive will take by the numbers of its accessors, before any of them is read.
+bool spendPrimitive(Loader& loader, const tinygltf::Primitive& primitive, const Source& source);
+
 /// Checks a primitive and adds it to the parts of the source, unless it has no triangles.
 bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, Source* source);
 
@@ -260,6 +273,9 @@ std::vector<TextureUse> texturesOf(const tinygltf::Material& material);
 
 /// The sets of texture coordinates that they lie by, two at most: a mesh keeps no more.
 std::vector<int> texcoordSetsOf(const tinygltf::Material& material);
+
+/// Reads the headers of a material's pictures and counts what they will take.
+bool checkMaps(Loader& loader, const tinygltf::Material& given);
 
 /// Fills the material's maps, and the scene's images with their pictures.
 bool openMaps(Loader& loader, const tinygltf::Material& given, vtMaterial* material);

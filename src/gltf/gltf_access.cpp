@@ -174,7 +174,7 @@ bool openAccessor(Loader& loader, int index, Stream* stream)
         return loader.fail(vt_errorFormat, "%s has the unknown componentType %d" GLTF_DAMAGED, what.c_str(),
                            accessor.componentType);
     }
-    const size_t elementSize = (size_t)(components * componentSize);
+    const size_t elementSize = (size_t)components * (size_t)componentSize;
     *stream = {nullptr, accessor.count, 0, accessor.componentType, components, accessor.normalized};
     if (accessor.bufferView >= 0) {
         if (!loader.has("buffer view", accessor.bufferView, model.bufferViews.size())) {

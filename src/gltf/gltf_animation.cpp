@@ -103,8 +103,8 @@ static bool readCurve(Loader& loader, const std::string& what, const Json& sampl
                            what.c_str(), output.count, output.components, input.count, components);
     }
     curve->components = components;
-    // A view may be read by many samplers, and zeros take nothing of the file.
-    return loader.spend(sizeof(float) * (input.count + values), what) &&
+    // Where all of them were not counted before.
+    return (VT_WITH_FILES || loader.spend(sizeof(float) * (input.count + values), what)) &&
            readTimes(loader, what, input, &curve->times) && readValues(loader, what, output, &curve->values);
 }
 
@@ -253,9 +253,37 @@ static bool addChannel(Loader& loader, const std::string& name, const Json& give
     return true;
 }
 
+/// Counts what all channels will take, before any is read: a view may be read by many samplers, and zeros
+/// take nothing of the file.
+static bool spendAnimations(Loader& loader, const Json& animations)
+{
+    const std::vector<tinygltf::Accessor>& accessors = loader.model.accessors;
+    uint64_t numbers = 0;
+    for (const Json& given : animations) {
+        const Json* channel;
+        for (int k = 0; (channel = entryOf(given, "channels", k)) != nullptr; ++k) {
+            const Json* sampler = entryOf(given, "samplers", indexOf(*channel, "sampler"));
+            for (const char* key : {"input", "output"}) {
+                const int index = sampler != nullptr ? indexOf(*sampler, key) : -1;
+                const bool isThere = index >= 0 && (size_t)index < accessors.size();
+                const tinygltf::Accessor* accessor = isThere ? &accessors[(size_t)index] : nullptr;
+                const int each = isThere ? tinygltf::GetNumComponentsInType((uint32_t)accessor->type) : 0;
+                numbers += isThere && each > 0 ? accessor->count * (uint64_t)each : 0;
+            }
+        }
+    }
+    return loader.spend(sizeof(float) * numbers, "what its animations read");
+}
+
 bool readAnimations(Loader& loader, const Json& animations)
 {
     loader.rig.nodes.resize(loader.model.nodes.size());
+    if (!VT_IS_FULL) {
+        return true; // a page loads the larger core for them
+    }
+    if (VT_WITH_FILES && !spendAnimations(loader, animations)) {
+        return false;
+    }
     loader.rig.animations.resize(animations.size());
     for (size_t i = 0; i < animations.size(); ++i) {
         const Json& given = animations[i];

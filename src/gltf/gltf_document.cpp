@@ -60,6 +60,9 @@ static bool parseJson(Loader& loader, Bytes text, Json* document)
     while (text.size > 0 && text.data[text.size - 1] == 0) {
         --text.size; // some exporters pad with zeros instead of spaces
     }
+    if (!checkStructure(loader, text)) {
+        return false;
+    }
     // As chars, as tinygltf parses them: another type would bring a second parser into the page's wasm.
     const char* begin = (const char*)text.data;
     *document = Json::parse(begin, begin + text.size, nullptr, false);

@@ -45,7 +45,7 @@ static bool readAttribute(Loader& loader, const draco::Mesh& mesh, const std::st
     const size_t count = mesh.num_points();
     bool read = attribute != nullptr && components > 0 && components <= 4 && width > 0;
     if (read) {
-        const size_t stride = (size_t)(components * width);
+        const size_t stride = (size_t)components * (size_t)width;
         if (!loader.spend((uint64_t)count * stride, "a packed primitive")) {
             return false;
         }

@@ -107,7 +107,8 @@ bool readExternal(Loader& loader, const char* what, const std::string& uri, std:
     size_t size = 0;
     vtError error = {};
     const vtResult result =
-        def.readFile(path.c_str(), (size_t)loader.budget, &contents, &size, def.userData, &error);
+        def.readFile(path.c_str(), (size_t)std::min<uint64_t>(loader.left.memory, SIZE_MAX), &contents, &size,
+                     def.userData, &error);
     const Block<uint8_t> owned(contents);
     if (result != vt_ok) {
         const std::string why = error.message[0] != '\0' ? std::string(" (") + error.message + ")" : "";
@@ -173,25 +174,25 @@ bool decodeDataUri(const std::string& uri, std::vector<uint8_t>* bytes)
     return true;
 }
 
-bool openPicture(Loader& loader, int index, std::vector<uint8_t>* contents, Bytes* bytes)
+bool openPicture(Loader& loader, int index)
 {
-    const Picture& picture = loader.pictures[(size_t)index];
+    Picture& picture = loader.pictures[(size_t)index];
     const std::string name = "image " + label(index, picture.name);
     if (picture.uri.empty()) {
         return picture.bufferView >= 0
-                   ? openView(loader, name, picture.bufferView, wholeView, bytes)
+                   ? openView(loader, name, picture.bufferView, wholeView, &picture.bytes)
                    : loader.fail(vt_errorFormat, "%s has neither a uri nor a buffer view" GLTF_DAMAGED,
                                  name.c_str());
     }
     if (picture.uri.compare(0, 5, "data:") != 0) {
-        if (!readExternal(loader, "picture", picture.uri, contents)) {
+        if (!readExternal(loader, "picture", picture.uri, &picture.contents)) {
             return false;
         }
-    } else if (!decodeDataUri(picture.uri, contents)) {
+    } else if (!decodeDataUri(picture.uri, &picture.contents)) {
         return loader.fail(vt_errorFormat, "the data URI of %s cannot be decoded; export it as .glb",
                            name.c_str());
     }
-    *bytes = {contents->data(), contents->size()};
+    picture.bytes = {picture.contents.data(), picture.contents.size()};
     return true;
 }
 

@@ -44,12 +44,25 @@ void Loader::note(const char* format, ...)
 
 bool Loader::spend(uint64_t bytes, const std::string& what)
 {
-    if (bytes > budget) {
-        return fail(vt_errorMemory,
-                    "%s takes %llu bytes, and all that a model reads and unpacks may take %llu; simplify it",
-                    what.c_str(), (unsigned long long)bytes, (unsigned long long)mostExternalBytes);
+    if (bytes > left.memory) {
+        return fail(
+            vt_errorMemory,
+            "%s takes %llu bytes, but all that is read of a file may take %llu; simplify "
+            "it" VT_ALLOW("--max-memory"),
+            what.c_str(), (unsigned long long)bytes, (unsigned long long)limits.memory);
     }
-    budget -= bytes;
+    left.memory -= bytes;
+    return true;
+}
+
+bool Loader::spendTriangles(uint64_t count)
+{
+    if (count > left.triangles) {
+        return fail(vt_errorMemory,
+                    "it has more than %llu triangles; simplify it" VT_ALLOW("--max-triangles"),
+                    (unsigned long long)limits.triangles);
+    }
+    left.triangles -= count;
     return true;
 }
 

@@ -236,7 +236,7 @@ bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf)
     materialOf->assign(loader.model.materials.size() + 1, UINT32_MAX);
     for (const int source : loader.reached) {
         for (const Part& part : loader.sources[(size_t)source].parts) {
-            uint32_t* slot = &(*materialOf)[(size_t)(part.material + 1)];
+            uint32_t* slot = &(*materialOf)[(size_t)part.material + 1];
             if (*slot == UINT32_MAX) {
                 vtMaterial material;
                 if (!readMaterial(loader, part.material, &material)) {
@@ -268,6 +268,12 @@ bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf)
         return false;
     }
     scene->materialCount = (uint32_t)materials.size();
+    // A page's browser decodes the pictures, and has bounds of its own.
+    for (size_t i = 0; VT_WITH_FILES && i < materials.size() && !scene->allGlass; ++i) {
+        if (used[i] >= 0 && !checkMaps(loader, loader.model.materials[(size_t)used[i]])) {
+            return false;
+        }
+    }
     for (size_t i = 0; i < materials.size(); ++i) {
         if (!scene->allGlass && used[i] >= 0 &&
             !openMaps(loader, loader.model.materials[(size_t)used[i]], &materials[i])) {

@@ -280,7 +280,7 @@ bool makeMeshes(Loader& loader, const std::vector<uint32_t>& materialOf)
     for (size_t i = 0; i < groups.size(); ++i) {
         Source& source = loader.sources[(size_t)loader.reached[i]];
         for (const Part& part : source.parts) {
-            addPart(part, materialOf[(size_t)(part.material + 1)], source, groups[i]);
+            addPart(part, materialOf[(size_t)part.material + 1], source, groups[i]);
         }
         count += groups[i].size();
     }

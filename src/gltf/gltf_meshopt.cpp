@@ -38,7 +38,15 @@ bool decodeView(Loader& loader, const std::string& what, const Compressed& view,
             what.c_str(), view.extension.c_str(), quotable(view.mode).c_str(), quotable(view.filter).c_str(),
             count, stride);
     }
-    if (!loader.spend((uint64_t)count * stride, what)) {
+    // No coding packs tighter: a byte of a header for 1024 of vertices, one for each triangle or index.
+    const uint64_t size = (uint64_t)count * stride, tightest = view.mode == "ATTRIBUTES" ? 1024 : 12;
+    if (size / tightest > packed.size) {
+        return loader.fail(
+            vt_errorFormat,
+            "%s is packed by %s in %zu bytes, too few for the %llu that it declares" GLTF_DAMAGED,
+            what.c_str(), view.extension.c_str(), packed.size, (unsigned long long)size);
+    }
+    if (!loader.spend(size, what)) {
         return false;
     }
     decoded->resize(count * stride + 1); // never empty

@@ -55,6 +55,7 @@ static bool addToOrder(Loader& loader, size_t index, int parent)
     node.parent = parent;
     node.moves = (node.animated & places) != 0 || (parent >= 0 && rig.nodes[(size_t)parent].moves);
     rig.order.push_back(index);
+    loader.placed[index] = true;
     placeNode(rig, index);
     return true;
 }
@@ -114,7 +115,9 @@ bool placeNodes(Loader& loader)
     };
     const std::vector<tinygltf::Node>& nodes = loader.model.nodes;
     std::vector<int> roots;
-    if (!findRoots(loader, findParents(loader.model), &roots)) {
+    loader.parents = findParents(loader.model);
+    loader.placed.resize(nodes.size());
+    if (!findRoots(loader, loader.parents, &roots)) {
         return false;
     }
     visitLater(roots, -1, 1);
@@ -150,12 +153,11 @@ bool placeNodes(Loader& loader)
 }
 
 /// Places a node that may be outside the scene, and those above it that are not placed yet.
-static bool placeJoint(Loader& loader, const std::vector<int>& parents, std::vector<uint8_t>& placed,
-                       int joint)
+static bool placeJoint(Loader& loader, int joint)
 {
     std::vector<size_t> chain;
     int above = joint;
-    for (; above >= 0 && !placed[(size_t)above]; above = parents[(size_t)above]) {
+    for (; above >= 0 && !loader.placed[(size_t)above]; above = loader.parents[(size_t)above]) {
         if (chain.size() == (size_t)maxNodeDepth) {
             return loader.fail(vt_errorFormat, "joint %d has more than %d nodes above it" GLTF_DAMAGED, joint,
                                maxNodeDepth);
@@ -166,7 +168,6 @@ static bool placeJoint(Loader& loader, const std::vector<int>& parents, std::vec
         if (!addToOrder(loader, chain[i], above)) {
             return false;
         }
-        placed[chain[i]] = true;
         above = (int)chain[i];
     }
     return true;
@@ -195,14 +196,9 @@ bool openSkin(Loader& loader, int index)
                                index, skin.joints.size());
         }
     }
-    const std::vector<int> parents = findParents(loader.model);
-    std::vector<uint8_t> placed(parents.size(), false);
-    for (const size_t node : loader.rig.order) {
-        placed[node] = true;
-    }
     for (size_t i = 0; i < skin.joints.size(); ++i) {
         if (!loader.has("node", skin.joints[i], loader.model.nodes.size()) ||
-            !placeJoint(loader, parents, placed, skin.joints[i])) {
+            !placeJoint(loader, skin.joints[i])) {
             return false;
         }
         Matrix bind;

@@ -25,7 +25,7 @@ std::vector<int> listMaterials(const Loader& loader)
     std::vector<uint8_t> used(loader.model.materials.size() + 1, false);
     for (const int source : loader.reached) {
         for (const Part& part : loader.sources[(size_t)source].parts) {
-            used[(size_t)(part.material + 1)] = true;
+            used[(size_t)part.material + 1] = true;
         }
     }
     std::vector<int> materials;

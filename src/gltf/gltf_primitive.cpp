@@ -217,6 +217,31 @@ static bool unpack(Opening& from, const tinygltf::Primitive& primitive)
                             extension, lacking);
 }
 
+bool spendPrimitive(Loader& loader, const tinygltf::Primitive& primitive, const Source& source)
+{
+    const bool isList = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    if (!isList && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
+        primitive.mode != TINYGLTF_MODE_TRIANGLE_FAN) {
+        return true;
+    }
+    const auto countOf = [&](const char* name) -> uint64_t {
+        const int index = find(primitive.attributes, name);
+        const std::vector<tinygltf::Accessor>& accessors = loader.model.accessors;
+        return index >= 0 && (size_t)index < accessors.size() ? accessors[(size_t)index].count : 0;
+    };
+    const uint64_t vertices = countOf("POSITION"), indices = countOf(""),
+                   corners = indices > 0 ? indices : vertices;
+    size_t moved = source.skin >= 0 ? 4 : 0; // copies of positions and normals
+    for (size_t i = 0; i < primitive.targets.size() && i < source.weights.size(); ++i) {
+        moved += source.weights[i] != 0.0 || source.node >= 0;
+    }
+    // As the loader puts them together and as the mesh has them: positions and normals, two sets of texture
+    // coordinates, colours with alpha, tangents.
+    const uint64_t vertexBytes = 2 * sizeof(float) * (3 + 3 + 4 + 4 + 4) + moved * 6 * sizeof(float);
+    return loader.spendTriangles(isList ? corners / 3 : corners) &&
+           loader.spend(vertices * vertexBytes + 2 * sizeof(uint32_t) * corners, "a primitive");
+}
+
 bool addPrimitive(Loader& loader, const tinygltf::Primitive& primitive, Source* source)
 {
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP &&

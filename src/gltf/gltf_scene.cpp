@@ -35,6 +35,11 @@ static int findSource(Loader& loader, int number)
         }
     }
     Source source = {node.mesh, weights, node.skin, owner};
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        if (!spendPrimitive(loader, primitive, source)) {
+            return -1;
+        }
+    }
     if (node.skin >= 0 && !openSkin(loader, node.skin)) {
         return -1;
     }
@@ -68,6 +73,10 @@ static bool placeMesh(Loader& loader, int index, const Matrix& toWorld)
     const tinygltf::Node& node = loader.model.nodes[(size_t)index];
     if (!loader.has("mesh", node.mesh, loader.model.meshes.size())) {
         return false;
+    }
+    if (loader.objects.size() > VT_MAX_OBJECTS) { // that are too many; the sentence counts the others, too
+        loader.objects.push_back({index, 0, toWorld});
+        return true;
     }
     const int source = findSource(loader, index);
     if (source < 0 || loader.sources[(size_t)source].parts.empty()) {
@@ -123,6 +132,9 @@ bool collectNodes(Loader& loader)
         if (!addNode(loader, (int)node, toWorld)) {
             return false;
         }
+    }
+    if (loader.objects.size() > VT_MAX_OBJECTS) {
+        return failObjects(loader, loader.objects.size());
     }
     return !loader.objects.empty() ||
            loader.fail(vt_errorGeometry, "its scene has no triangles; export it with its meshes, in a scene");

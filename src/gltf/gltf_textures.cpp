@@ -105,31 +105,63 @@ std::vector<int> texcoordSetsOf(const tinygltf::Material& material)
     return sets;
 }
 
+/// The picture of a texture of the file.
+static bool findPicture(Loader& loader, int texture, int* source)
+{
+    return loader.has("texture", texture, loader.model.textures.size()) &&
+           findTextureSource(loader, texture, source) && loader.has("image", *source, loader.pictures.size());
+}
+
+/// For sentences.
+static std::string nameOf(const Picture& picture, int source)
+{
+    const bool isFile = picture.name.empty() && picture.uri.compare(0, 5, "data:") != 0;
+    return label(source, isFile ? picture.uri : picture.name);
+}
+
+bool checkMaps(Loader& loader, const tinygltf::Material& given)
+{
+    for (const TextureUse& use : texturesOf(given)) {
+        int source;
+        if (!findPicture(loader, use.texture, &source)) {
+            return false;
+        }
+        Picture& picture = loader.pictures[(size_t)source];
+        if (picture.isChecked) {
+            continue;
+        }
+        picture.isChecked = true;
+        uint64_t pixels = 0;
+        vtError error = {};
+        const std::string name = nameOf(picture, source);
+        if (!openPicture(loader, source)) {
+            return false;
+        }
+        if (vtCheckPicture(picture.bytes.data, picture.bytes.size, name.c_str(), &loader.limits, 4, &pixels,
+                           &error) != vt_ok) {
+            return loader.fail(error.result, "%s", error.message);
+        }
+        if (!loader.spend(4 * pixels, "picture '" + name + "'")) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// Decodes the picture of a texture, unless it is there; *image is its number in the scene.
 static bool openImage(Loader& loader, int texture, int* image)
 {
-    if (!loader.has("texture", texture, loader.model.textures.size())) {
-        return false;
-    }
     int source;
-    if (!findTextureSource(loader, texture, &source)) {
-        return false;
-    }
-    if (!loader.has("image", source, loader.pictures.size())) {
+    if (!findPicture(loader, texture, &source)) {
         return false;
     }
     Picture& picture = loader.pictures[(size_t)source];
     if (picture.image < 0) {
-        std::vector<uint8_t> contents;
-        Bytes bytes;
-        if (!openPicture(loader, source, &contents, &bytes)) {
-            return false;
-        }
-        const bool isFile = picture.name.empty() && picture.uri.compare(0, 5, "data:") != 0;
-        const std::string name = label(source, isFile ? picture.uri : picture.name);
         vtError error = {};
-        const vtResult result = vtDecodeImage(bytes.data, bytes.size, name.c_str(),
-                                              &loader.scene->images[loader.scene->imageCount], &error);
+        const vtResult result =
+            vtDecodeImage(picture.bytes.data, picture.bytes.size, nameOf(picture, source).c_str(),
+                          &loader.scene->images[loader.scene->imageCount], &error);
+        std::vector<uint8_t>().swap(picture.contents);
         if (result != vt_ok) {
             return loader.fail(result, "%s", error.message);
         }

@@ -263,6 +263,14 @@ static vtResult readExr(Reader* reader, vtRaster* raster, vtError* error)
     }
     vtRaster data;
     const exr_attr_box2i_t window = reader->data;
+    if (reader->file->header != NULL) { // the larger of both
+        const exr_attr_box2i_t shown = reader->display;
+        const long width = sideOf(shown.min.x, shown.max.x), height = sideOf(shown.min.y, shown.max.y);
+        const long dataWidth = sideOf(window.min.x, window.max.x),
+                   dataHeight = sideOf(window.min.y, window.max.y);
+        return vtBeginRaster(reader->file, width > dataWidth ? width : dataWidth,
+                             height > dataHeight ? height : dataHeight, reader->channels, 32, raster, error);
+    }
     vtResult result = vtBeginRaster(reader->file, sideOf(window.min.x, window.max.x),
                                     sideOf(window.min.y, window.max.y), reader->channels, 32, &data, error);
     if (result != vt_ok) {

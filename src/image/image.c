@@ -1,10 +1,12 @@
 #include "image/image.h"
+#include "base/about.h"
 
 #include <assert.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/memory.h"
 #include "image/image_checks.h"
 #include "image/pfm.h"
@@ -98,6 +100,41 @@ static vtResult decode(const vtPictureFile* file, vtRaster* raster, vtError* err
     return format->decode(file, raster, error);
 }
 
+vtResult vtCheckPicture(const void* bytes, size_t size, const char* name, const vtLimits* limits,
+                        size_t bytesPerPixel, uint64_t* pixels, vtError* error)
+{
+    const vtLimits most = vtResolveLimits(limits);
+    vtPictureHeader header = {0};
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false, &header};
+    vtRaster raster;
+    if (decode(&file, &raster, NULL) == vt_ok) {
+        vtDestroyRaster(&raster);
+    }
+    const bool isKnown = header.width > 0 && header.height > 0 && header.width <= VT_MAX_IMAGE_SIDE &&
+                         header.height <= VT_MAX_IMAGE_SIDE;
+    const uint64_t count = isKnown ? (uint64_t)header.width * (uint64_t)header.height : 0;
+    const uint64_t needed = count * ((uint64_t)header.bytesPerPixel + bytesPerPixel);
+    if (pixels != NULL) {
+        *pixels = count;
+    }
+    if (count > most.pixels) {
+        return vtFail(
+            error, vt_errorFormat,
+            "picture '%.300s' is %ld x %ld pixels, but at most %llu are read; scale it "
+            "down" VT_ALLOW("--max-pixels"),
+            file.name, header.width, header.height, (unsigned long long)most.pixels);
+    }
+    if (needed > most.memory) {
+        return vtFail(
+            error, vt_errorMemory,
+            "picture '%.300s' of %ld x %ld pixels takes %llu bytes, but a file may take %llu; scale it "
+            "down" VT_ALLOW("--max-memory"),
+            file.name, header.width, header.height, (unsigned long long)needed,
+            (unsigned long long)most.memory);
+    }
+    return vtSucceed(error);
+}
+
 // ------------------------------------------------------------------------------------------------- light
 
 static void sanitise(float* values, size_t count)
@@ -186,7 +223,7 @@ vtResult vtDecodeImageLinear(const void* bytes, size_t size, const char* name, f
     assert(pixels != NULL && width != NULL && height != NULL && (bytes != NULL || size == 0));
     *pixels = NULL;
     *width = *height = 0;
-    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false};
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false, NULL};
     vtRaster raster;
     vtResult result = decode(&file, &raster, error);
     if (result == vt_ok) {
@@ -254,7 +291,7 @@ vtResult vtDecodeImage(const void* bytes, size_t size, const char* name, vtImage
 {
     assert(image != NULL && (bytes != NULL || size == 0));
     *image = (vtImage){0};
-    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false};
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false, NULL};
     const Format* format = findFormat(bytes, size);
     if (format == NULL || !format->inMaterials) {
         return vtFail(
@@ -301,7 +338,7 @@ vtResult vtDecodeHeights(const void* bytes, size_t size, const char* name, float
     *heights = NULL;
     *width = *height = 0;
     *bits = 32;
-    const vtPictureFile file = {bytes, size, name != NULL ? name : "", true};
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", true, NULL};
     vtRaster raster;
     const vtResult result = decode(&file, &raster, error);
     if (result != vt_ok) {

@@ -46,6 +46,13 @@ vtResult vtEncodeExr(const float* pixels, int channels, int width, int height, c
 vtResult vtEncodeHdr(const float* rgb, int width, int height, const char* comment, uint8_t** bytes,
                      size_t* size, vtError* error);
 
+/// Looks at a picture's header alone, before memory is taken: fails with vt_errorFormat for more pixels than
+/// the limits allow (NULL: the defaults), with vt_errorMemory where its samples and what is made of them,
+/// `bytesPerPixel`, take more memory. *pixels, which may be NULL: how many it declares. What is damaged
+/// passes: decoding it tells what is wrong.
+vtResult vtCheckPicture(const void* bytes, size_t size, const char* name, const vtLimits* limits,
+                        size_t bytesPerPixel, uint64_t* pixels, vtError* error);
+
 /// Whether this begins as a file of these formats does.
 bool vtIsPicture(const void* bytes, size_t size);
 

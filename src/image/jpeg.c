@@ -12,8 +12,13 @@
 #include "base/error.h"
 #include "image/raster.h"
 
-/// A progressive picture is drawn anew for each scan: one of a few kilobytes could take minutes.
-enum { mostScans = 100 };
+/// Each scan of a progressive picture goes through all its pixels: one of a few kilobytes could take minutes.
+/// Encoders write about ten.
+static int mostScans(const struct jpeg_decompress_struct* jpeg)
+{
+    const uint64_t pixels = (uint64_t)jpeg->image_width * jpeg->image_height, most = 1 << 28;
+    return pixels * 100 <= most ? 100 : pixels * 20 >= most ? 20 : (int)(most / pixels);
+}
 
 typedef struct Reader {
     struct jpeg_error_mgr errors; // first, so that libjpeg's pointer to it is one to Reader
@@ -56,8 +61,9 @@ static void hear(j_common_ptr jpeg, int level)
 static void watch(j_common_ptr jpeg)
 {
     Reader* reader = (Reader*)jpeg->err;
-    if (reader->jpeg.input_scan_number > mostScans) {
-        snprintf(reader->reason, sizeof reader->reason, "it has more than %d scans", mostScans);
+    if (reader->jpeg.input_scan_number > mostScans(&reader->jpeg)) {
+        snprintf(reader->reason, sizeof reader->reason, "it has more than %d scans",
+                 mostScans(&reader->jpeg));
         leave(jpeg);
     }
 }

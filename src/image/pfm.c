@@ -173,7 +173,7 @@ vtResult vtDecodePfm(const void* bytes, size_t size, const char* name, float** r
     assert(rgb != NULL && width != NULL && height != NULL && (bytes != NULL || size == 0));
     *rgb = NULL;
     *width = *height = 0;
-    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false};
+    const vtPictureFile file = {bytes, size, name != NULL ? name : "", false, NULL};
     if (!vtIsPfm(bytes, size) || ((const char*)bytes)[1] != 'F') {
         return vtFail(error, vt_errorFormat, "picture '%s' is not a colour PFM (its first word is not PF)",
                       file.name);

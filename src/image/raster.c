@@ -8,6 +8,10 @@ vtResult vtBeginRaster(const vtPictureFile* file, long width, long height, int c
                        vtRaster* raster, vtError* error)
 {
     *raster = (vtRaster){0};
+    if (file->header != NULL) {
+        *file->header = (vtPictureHeader){width, height, channels * bits / 8};
+        return vt_errorFormat;
+    }
     const vtResult result = file->isRelief
                                 ? vtCheckHeightSides(file->name, width, height, vt_errorFormat, error)
                                 : vtCheckPictureSides(file->name, width, height, error);

@@ -4,12 +4,19 @@
 
 #include "vitrine.h"
 
+/// What a picture's header declares.
+typedef struct vtPictureHeader {
+    long width, height;
+    int bytesPerPixel; ///< of its raster; 0: the header was not reached
+} vtPictureHeader;
+
 /// A picture's file in memory.
 typedef struct vtPictureFile {
     const uint8_t* bytes;
     size_t size;
-    const char* name; ///< for sentences
-    bool isRelief;    ///< its sides must be those of a relief
+    const char* name;        ///< for sentences
+    bool isRelief;           ///< its sides must be those of a relief
+    vtPictureHeader* header; ///< nothing else is read: vtBeginRaster fills it and fails. NULL: all is read
 } vtPictureFile;
 
 /// Samples as the file has them, top row first; the caller frees them by vtFree.

@@ -219,6 +219,12 @@ static vtResult usePicture(vtEnvironment* decoded, const char* name, vtEnvironme
 vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtEnvironment* environment,
                            vtError* error)
 {
+    return vtLoadEnvironmentWithin(bytes, size, name, NULL, environment, error);
+}
+
+vtResult vtLoadEnvironmentWithin(const void* bytes, size_t size, const char* name, const vtLimits* limits,
+                                 vtEnvironment* environment, vtError* error)
+{
     if (environment == NULL) {
         return vtFailMissing(error, "vtLoadEnvironment", "environment");
     }
@@ -227,8 +233,10 @@ vtResult vtLoadEnvironment(const void* bytes, size_t size, const char* name, vtE
         return vtFailMissing(error, "vtLoadEnvironment", "bytes");
     }
     vtEnvironment loaded = {.kind = vt_environmentImage};
-    const vtResult result =
-        vtDecodeImageLinear(bytes, size, name, &loaded.pixels, &loaded.width, &loaded.height, error);
+    vtResult result = vtCheckPicture(bytes, size, name, limits, 3 * sizeof *loaded.pixels, NULL, error);
+    if (result == vt_ok) {
+        result = vtDecodeImageLinear(bytes, size, name, &loaded.pixels, &loaded.width, &loaded.height, error);
+    }
     return result == vt_ok ? usePicture(&loaded, name, environment, error) : result;
 }
 

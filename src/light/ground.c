@@ -101,8 +101,9 @@ vtResult vtPlanGround(const vtGround* ground, const vtEnvironment* environment, 
                       vtGroundPlan* plan, vtError* error)
 {
     const uint32_t lights = scene->lightCount < VT_MOST_LIGHTS ? scene->lightCount : VT_MOST_LIGHTS;
+    const float height = vtSpace_Enter(&scene->space, (vtVec3){0.0f, ground->height, 0.0f}).y;
     *plan = (vtGroundPlan){.ground = *ground,
-                           .height = isnan(ground->height) ? scene->low.y : ground->height,
+                           .height = isnan(height) ? scene->low.y : height,
                            .glassLow = scene->glassLow,
                            .glassHigh = scene->glassHigh,
                            .reach = vtLength(vtSub(scene->high, scene->low)),
@@ -113,7 +114,7 @@ vtResult vtPlanGround(const vtGround* ground, const vtEnvironment* environment, 
     if (plan->height > scene->low.y + 1e-3f * plan->reach) {
         return vtFail(error, vt_errorArgument,
                       "ground: it lies at %g, but the scene reaches down to %g; put it there or below",
-                      (double)plan->height, (double)scene->low.y);
+                      (double)ground->height, (double)vtSpace_Leave(&scene->space, scene->low).y);
     }
 #endif
     vtSun sun;

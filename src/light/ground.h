@@ -2,6 +2,7 @@
 // follows them is left open: a shader (passes/ground.h), or the reference. What is seen: ground_map.h.
 #pragma once
 
+#include "base/space.h"
 #include "light/ground_samples.h"
 
 /// What is gathered by itself: a small light makes sharp shadows and a wide one soft ones.
@@ -14,7 +15,7 @@ typedef enum vtGroundLight {
 
 typedef struct vtGroundPlan {
     vtGround ground;
-    float height;               ///< world y
+    float height;               ///< y
     float lowX, lowZ, size;     ///< of the square that the map covers, world
     vtVec3 glassLow, glassHigh; ///< box that photons go through
     float reach;                ///< the scene's diagonal: photons start farther away than anything
@@ -28,8 +29,9 @@ typedef struct vtGroundPlan {
     float* unshaded;                               ///< by lights of files, without a scene: the same
 } vtGroundPlan;
 
-/// What a ground lies below, world.
+/// What a ground lies below.
 typedef struct vtGroundScene {
+    vtSpace space; ///< of the caller's world; all else here, and the plan, is in it
     vtVec3 low, high;
     vtVec3 glassLow, glassHigh; ///< low > high: there is none
     const vtLight* lights;      ///< must outlive the plan

@@ -162,16 +162,25 @@ void vtDestroyGroundMap(vtGroundMap* map)
     *map = (vtGroundMap){0};
 }
 
-vtVec3 vtGroundMap_Light(const vtGroundMap* map, vtVec3 position, vtVec3 direction, vtVec3 beyond)
+/// Does the ray come down to it from above? Then *at is where, *share its light there over what it would
+/// have.
+static bool meet(const vtGroundMap* map, vtVec3 position, vtVec3 direction, vtVec3* at, vtVec3* share)
 {
     const float above = position.y - map->height;
     if (!(direction.y < -1e-6f) || above < -1e-3f * map->size) {
+        return false;
+    }
+    *at = vtMulAdd(position, fmaxf(above, 0.0f) / -direction.y, direction);
+    *share = readMap(map->light, side, (at->x - map->lowX) / map->size, (at->z - map->lowZ) / map->size);
+    return true;
+}
+
+vtVec3 vtGroundMap_Light(const vtGroundMap* map, vtVec3 position, vtVec3 direction, vtVec3 beyond)
+{
+    vtVec3 at, share;
+    if (!meet(map, position, direction, &at, &share)) {
         return beyond;
     }
-    const float distance = fmaxf(above, 0.0f) / -direction.y;
-    const vtVec3 at = vtMulAdd(position, distance, direction);
-    const vtVec3 share =
-        readMap(map->light, side, (at.x - map->lowX) / map->size, (at.z - map->lowZ) / map->size);
     if (!map->matt) {
         return vtMultiply(share, beyond);
     }
@@ -180,4 +189,24 @@ vtVec3 vtGroundMap_Light(const vtGroundMap* map, vtVec3 position, vtVec3 directi
         light = vtAdd(light, vtLampOnGround(&map->lights[i], at));
     }
     return vtMultiply(share, vtScale(vtMultiply(map->color, light), 1.0f / VT_PI));
+}
+
+vtVec3 vtGroundMap_Over(const vtGroundMap* map, vtVec3 position, vtVec3 direction, vtVec3 light,
+                        float* covered)
+{
+    vtVec3 at, share;
+    *covered = 0.0f;
+    if (!meet(map, position, direction, &at, &share)) {
+        return (vtVec3){0.0f, 0.0f, 0.0f};
+    }
+    if (map->matt) {
+        *covered = 1.0f;
+        return light;
+    }
+    const vtVec3 more = {light.x * fmaxf(1.0f - 1.0f / fmaxf(share.x, 1e-3f), 0.0f),
+                         light.y * fmaxf(1.0f - 1.0f / fmaxf(share.y, 1e-3f), 0.0f),
+                         light.z * fmaxf(1.0f - 1.0f / fmaxf(share.z, 1e-3f), 0.0f)};
+    const float shadow = 1.0f - fminf(fminf(share.x, fminf(share.y, share.z)), 1.0f);
+    *covered = vtClamp(fmaxf(shadow, fmaxf(more.x, fmaxf(more.y, more.z))), 0.0f, 1.0f);
+    return more;
 }

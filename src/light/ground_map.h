@@ -23,3 +23,8 @@ void vtDestroyGroundMap(vtGroundMap* map);
 /// Light that a ray brings which meets nothing of the scene any more; `beyond`: the environment's in its
 /// direction. The twin of shaders_es3/ground/ground.glsl.
 vtVec3 vtGroundMap_Light(const vtGroundMap* map, vtVec3 position, vtVec3 direction, vtVec3 beyond);
+/// What it does to another background than the environment: its shadow covers that, caustics are added; a
+/// matt one covers all. `light`: as vtGroundMap_Light gives it. Colours times the share *covered. The twin of
+/// groundOverPage in shaders_es3/ground/ground.glsl.
+vtVec3 vtGroundMap_Over(const vtGroundMap* map, vtVec3 position, vtVec3 direction, vtVec3 light,
+                        float* covered);

@@ -165,7 +165,7 @@ vtLook vtLookAt(const vtScene* scene, const vtPlacedObject* object, uint32_t tri
     const vtMesh* mesh = object->mesh;
     const vtMaterial* m = object->material;
     vtVec3 p[3], normals[3];
-    vtMesh_Corners(mesh, triangle, p);
+    vtPlacedObject_Corners(object, triangle, p);
     vtMesh_Normals(mesh, triangle, normals);
     const Corner corner = cornerAt(mesh, triangle, u, v);
     const float* at = corner.at;

@@ -9,7 +9,7 @@ vtVec3 vtShadeSurface(const vtScene* scene, const vtPlacedObject* object, const 
 {
     const vtLook look = vtLookAt(scene, object, triangle, u, v, vtMaterial_Index(object->material), -1.0f);
     vtVec3 p[3];
-    vtMesh_Corners(object->mesh, triangle, p);
+    vtPlacedObject_Corners(object, triangle, p);
     const vtVec3 position = vtTransformPoint(&object->toWorld, vtBlend(p, u, v));
     const float side = vtDot(look.G, I) > 0.0f ? -1.0f : 1.0f;
     const vtVec3 N = vtScale(look.N, side);

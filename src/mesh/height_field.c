@@ -100,7 +100,8 @@ static bool smooth(vtHeightField* field, float deviation)
     assert(reach <= mostReach);
     float weights[2 * mostReach + 1], total = 0.0f;
     for (int k = -reach; k <= reach; ++k) {
-        weights[k + reach] = expf(-0.5f * (float)(k * k) / (deviation * deviation));
+        // Of the middle it is 1, although the square of a tiny deviation is 0.
+        weights[k + reach] = k == 0 ? 1.0f : expf(-0.5f * (float)(k * k) / (deviation * deviation));
         total += weights[k + reach];
     }
     for (int k = 0; k <= 2 * reach; ++k) {

@@ -2,6 +2,7 @@
 // the shaders walk, and the same records walked on the CPU.
 #pragma once
 
+#include "base/space.h"
 #include "shaders_es3/common/constants.h"
 #include "vitrine.h"
 
@@ -14,13 +15,13 @@
 /// three zeros: for any direction. So with -d where a ray enters. No child: x = y = z = 4095, an empty box.
 /// Word w of texel 0: number of the first child; of texel 3: VT_NO_NORMAL, which no leaf has there.
 ///
-/// Leaf: the triangles P0 P1 P2 and P0 P2 P3; P3 = P2 where it is one triangle. Texel k: the bits of Pk -
-/// origin, and the packed normal of the vertex (scene/octahedral.h).
+/// Leaf: the triangles P0 P1 P2 and P0 P2 P3; P3 = P2 where it is one triangle. Texel k: the bits of Pk,
+/// and the packed normal of the vertex (scene/octahedral.h).
 typedef struct vtHierarchy {
     uint32_t* records; ///< VT_RECORD_WORDS * recordCount, and zeros up to whole rows of VT_RECORDS_A_ROW
     uint32_t* corners; ///< 4 * recordCount: vertices of a leaf; VT_NO_TRIANGLE of an inner node
     uint32_t recordCount;
-    vtVec3 origin;             ///< middle of the mesh's box; all else is relative to it
+    vtSpace space;             ///< about the mesh; all else is in it
     vtVec3 gridLow, gridScale; ///< step = (p - gridLow) * gridScale; the box lies in steps 1 to 4095
     float cost;                ///< as built: records that a ray through the mesh's box reaches on average
     float refitCost;           ///< the same now

@@ -13,8 +13,7 @@ enum { mostSides = 64 };
 
 static void readCorner(const vtHierarchyBuild* build, size_t corner, float* position)
 {
-    vtSubtract(build->mesh->positions + 3 * (size_t)build->mesh->indices[corner], build->grid.origin,
-               position);
+    vtGrid_Enter(&build->grid, build->mesh->positions + 3 * (size_t)build->mesh->indices[corner], position);
 }
 
 static void readTriangle(const vtHierarchyBuild* build, uint32_t triangle, float p[3][3])
@@ -355,8 +354,8 @@ bool vtPhase_Pairs(vtHierarchyBuild* build, int64_t* work)
         vtBox_Clear(&item->box);
         for (int k = 0; k < 4; ++k) {
             float p[3];
-            vtSubtract(build->mesh->positions + 3 * (size_t)build->pairs[number].corners[k],
-                       build->grid.origin, p);
+            vtGrid_Enter(&build->grid, build->mesh->positions + 3 * (size_t)build->pairs[number].corners[k],
+                         p);
             vtBox_Grow(&item->box, p, p);
         }
     }

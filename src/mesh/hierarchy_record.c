@@ -56,9 +56,9 @@ void vtWriteLeaf(const vtGrid* grid, const float* positions, const uint32_t* nor
                  const uint32_t corners[4], uint32_t* record)
 {
     for (int i = 0; i < 4; ++i) {
-        float relative[3];
-        vtSubtract(positions + 3 * (size_t)corners[i], grid->origin, relative);
-        memcpy(record + 4 * i, relative, sizeof relative);
+        float own[3];
+        vtGrid_Enter(grid, positions + 3 * (size_t)corners[i], own);
+        memcpy(record + 4 * i, own, sizeof own);
         record[4 * i + 3] = normals[corners[i]];
     }
 }

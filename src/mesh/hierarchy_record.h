@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/math.h"
+#include "base/space.h"
 #include "mesh/hierarchy.h"
 #include "shaders_es3/common/constants.h"
 
@@ -18,10 +19,21 @@ typedef struct vtCone {
     float cosine;
 } vtCone;
 
-/// Where the steps of boxes lie; `low` is relative to `origin`.
+/// Where the steps of boxes lie, in the mesh's own space.
 typedef struct vtGrid {
-    float origin[3], low[3], scale[3];
+    vtSpace space;
+    float low[3], scale[3];
 } vtGrid;
+
+/// A vertex in the grid's space.
+static inline void vtGrid_Enter(const vtGrid* grid, const float* p, float* own)
+{
+    const vtVec3 o = grid->space.origin;
+    const float unit = grid->space.unit;
+    own[0] = (p[0] - o.x) * unit;
+    own[1] = (p[1] - o.y) * unit;
+    own[2] = (p[2] - o.z) * unit;
+}
 
 static inline float vtLesser(float a, float b)
 {
@@ -57,13 +69,6 @@ static inline float vtBox_HalfArea(const vtBox* box)
     return x < 0.0f ? 0.0f : x * y + y * z + z * x;
 }
 
-static inline void vtSubtract(const float* a, const float* b, float* difference)
-{
-    for (int k = 0; k < 3; ++k) {
-        difference[k] = a[k] - b[k];
-    }
-}
-
 /// Writes the unit normal of a counter-clockwise triangle; zeros and false where it has no area.
 static inline bool vtUnitNormal(const float* a, const float* b, const float* c, float* normal)
 {
@@ -84,25 +89,25 @@ static inline bool vtUnitNormal(const float* a, const float* b, const float* c, 
 /// The grid of a mesh whose box is given.
 static inline vtGrid vtMakeGrid(const vtBox* box)
 {
-    vtGrid grid;
-    float extent[3];
-    double square = 0.0;
+    vtGrid grid = {.space = vtSpaceOfBox(vtMakeVec3(box->low), vtMakeVec3(box->high))};
+    float low[3], high[3], extent[3], square = 0.0f;
+    vtGrid_Enter(&grid, box->low, low);
+    vtGrid_Enter(&grid, box->high, high);
     for (int k = 0; k < 3; ++k) {
-        grid.origin[k] = 0.5f * box->low[k] + 0.5f * box->high[k];
-        extent[k] = (box->high[k] - grid.origin[k]) - (box->low[k] - grid.origin[k]);
-        square += (double)extent[k] * (double)extent[k];
+        extent[k] = high[k] - low[k];
+        square += extent[k] * extent[k];
     }
-    const float least = vtGreater(1e-4f * (float)sqrt(square), 1e-30f); // also where all lies at one point
+    const float least = vtGreater(1e-4f * sqrtf(square), 1e-30f); // also where all lies at one point
     for (int k = 0; k < 3; ++k) {
         grid.scale[k] = 4094.0f / vtGreater(extent[k], least);
-        grid.low[k] = box->low[k] - grid.origin[k] - 1.0f / grid.scale[k];
+        grid.low[k] = low[k] - 1.0f / grid.scale[k];
     }
     return grid;
 }
 
 static inline void vtHierarchy_SetGrid(vtHierarchy* hierarchy, const vtGrid* grid)
 {
-    hierarchy->origin = vtMakeVec3(grid->origin);
+    hierarchy->space = grid->space;
     hierarchy->gridLow = vtMakeVec3(grid->low);
     hierarchy->gridScale = vtMakeVec3(grid->scale);
 }
@@ -115,7 +120,7 @@ static inline bool vtRecord_IsLeaf(const uint32_t* record)
     return record[15] != VT_NO_NORMAL;
 }
 
-/// The words x, y, z of a child. `box` is relative to the grid's origin.
+/// The words x, y, z of a child. `box` is in the grid's space.
 void vtWriteChild(const vtGrid* grid, const vtBox* box, const vtCone* cone, uint32_t* texel);
 /// A whole leaf from its four vertices. `normals`: packed, by vertex.
 void vtWriteLeaf(const vtGrid* grid, const float* positions, const uint32_t* normals,

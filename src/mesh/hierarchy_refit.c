@@ -11,7 +11,7 @@
 
 /// What lies below a record.
 typedef struct Bounds {
-    vtBox box;    ///< relative to the grid's origin
+    vtBox box;    ///< in the grid's space
     vtCone cone;  ///< of the normals; cosine 2: there are none
     float sum[3]; ///< of the normals
 } Bounds;
@@ -71,7 +71,7 @@ static void refitLeaf(const Refit* refit, uint32_t number)
     float p[4][3], n[2][3];
     vtBox_Clear(&here->box);
     for (int i = 0; i < 4; ++i) {
-        vtSubtract(refit->positions + 3 * (size_t)corners[i], refit->grid.origin, p[i]);
+        vtGrid_Enter(&refit->grid, refit->positions + 3 * (size_t)corners[i], p[i]);
         vtBox_Grow(&here->box, p[i], p[i]);
     }
     const bool first = vtUnitNormal(p[0], p[1], p[2], n[0]);

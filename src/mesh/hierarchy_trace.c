@@ -13,7 +13,7 @@
 /// What a ray is while it walks. `steps`: in the steps of boxes.
 typedef struct Walk {
     const vtHierarchy* hierarchy;
-    vtVec3 origin, direction; ///< origin relative to the hierarchy's
+    vtVec3 origin, direction; ///< in the hierarchy's space
     float steps[3], inverse[3];
     float facing[3]; ///< unit, along the normals that are wanted; 0: all are
     float start;
@@ -22,8 +22,9 @@ typedef struct Walk {
 
 static Walk makeWalk(const vtHierarchy* hierarchy, vtVec3 origin, vtVec3 direction, float start, int sides)
 {
-    Walk walk = {.hierarchy = hierarchy, .direction = direction, .start = start, .sides = sides};
-    walk.origin = vtSub(origin, hierarchy->origin);
+    Walk walk = {.hierarchy = hierarchy, .start = start, .sides = sides};
+    direction = walk.direction = vtScale(direction, hierarchy->space.unit);
+    walk.origin = vtSpace_Enter(&hierarchy->space, origin);
     const vtVec3 unit = vtNormalize(direction), low = hierarchy->gridLow, scale = hierarchy->gridScale;
     const float o[3] = {walk.origin.x, walk.origin.y, walk.origin.z},
                 d[3] = {direction.x, direction.y, direction.z};
@@ -184,8 +185,8 @@ static bool isWithin(const vtHierarchy* hierarchy, const uint32_t* record)
     const vtVec3 extent = {4094.0f / scale.x, 4094.0f / scale.y, 4094.0f / scale.z};
     // A little aslant: symmetric meshes have edges opposite.
     const vtVec3 direction = vtNormalize(vtAdd(normal, (vtVec3){0.0313f, -0.0171f, 0.0237f}));
-    const vtVec3 origin = vtAdd(middle, hierarchy->origin);
-    const float step = 1e-5f * vtLength(extent);
+    const vtVec3 origin = vtSpace_Leave(&hierarchy->space, middle);
+    const float step = 1e-5f * vtLength(extent) / hierarchy->space.unit;
     return countSurfaces(hierarchy, origin, direction, step, 2) >
            countSurfaces(hierarchy, origin, direction, step, 1);
 }

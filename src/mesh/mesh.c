@@ -343,13 +343,13 @@ static void findBounds(vtMesh* mesh)
 /// Sums of many small parts, so in double.
 static void findVolume(vtMesh* mesh)
 {
-    const vtVec3 origin = vtMakeVec3(mesh->positions);
+    const float* origin = mesh->positions;
     double sum = 0.0;
     for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
-        const vtVec3 a = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), origin);
-        const vtVec3 b = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 1]), origin);
-        const vtVec3 c = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 2]), origin);
-        sum += (double)vtDot(vtCross(a, b), c);
+        const Double3 a = subtract(mesh->positions + 3 * (size_t)mesh->indices[i], origin);
+        const Double3 b = subtract(mesh->positions + 3 * (size_t)mesh->indices[i + 1], origin);
+        const Double3 c = subtract(mesh->positions + 3 * (size_t)mesh->indices[i + 2], origin);
+        sum += dot(cross(a, b), c);
     }
     mesh->volume = sum / 6.0;
 }

@@ -95,7 +95,7 @@ static void addShade(Rays* rays, int source, int count)
 
 /// `isOwn`: of the paths themselves, which count only where they have met something. False where memory is
 /// out.
-static bool addPhotons(Rays* rays, int source, bool isOwn, vtVec3 origin, int count)
+static bool addPhotons(Rays* rays, int source, bool isOwn, int count)
 {
     bool ready = true;
     for (int i = 0; i < count * count; ++i) {
@@ -113,21 +113,19 @@ static bool addPhotons(Rays* rays, int source, bool isOwn, vtVec3 origin, int co
         const vtVec3 share =
             vtScale((vtVec3){(float)(word[2] & 0xffffu), (float)(word[2] >> 16), (float)(word[3] & 0xffffu)},
                     1.0f / 65535.0f);
-        vtGroundPlan_AddPhoton(&rays->plan, source, &ray, asFloat(word[0]) + origin.x,
-                               asFloat(word[1]) + origin.z, share, count);
+        vtGroundPlan_AddPhoton(&rays->plan, source, &ray, asFloat(word[0]), asFloat(word[1]), share, count);
     }
     return ready;
 }
 
 /// What the shader has to know of a source.
-static void setUniforms(const vtGroundPass* pass, const vtGL* gl, const vtGroundPlan* plan, vtVec3 origin,
-                        int source, vtGroundRays kind, int count)
+static void setUniforms(const vtGroundPass* pass, const vtGL* gl, const vtGroundPlan* plan, int source,
+                        vtGroundRays kind, int count)
 {
-    const vtVec3 low = vtSub(plan->glassLow, origin), high = vtSub(plan->glassHigh, origin);
+    const vtVec3 low = plan->glassLow, high = plan->glassHigh;
     const vtGroundBeam beam = vtGroundPlan_Beam(plan, source);
-    const vtVec3 place = beam.isNear ? vtSub(beam.place, origin) : beam.place, axis = beam.axis;
-    const float ground[4] = {plan->height - origin.y, plan->lowX - origin.x, plan->lowZ - origin.z,
-                             plan->size};
+    const vtVec3 place = beam.place, axis = beam.axis;
+    const float ground[4] = {plan->height, plan->lowX, plan->lowZ, plan->size};
     const float numbers[4] = {(float)(2 * source + (int)kind), (float)kind, plan->reach, (float)count};
     const float box[8] = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
     const float light[8] = {place.x, place.y, place.z, source < 2 ? 0.0f : beam.isNear ? 1.0f : 2.0f,
@@ -138,14 +136,13 @@ static void setUniforms(const vtGroundPass* pass, const vtGL* gl, const vtGround
     gl->Uniform4fv(pass->program->uniforms[4], 2, light);
 }
 
-static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec3 origin, int source,
-                     vtGroundRays kind)
+static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, int source, vtGroundRays kind)
 {
     bool ready = true;
     const int count = vtGroundPlan_Across(&rays->plan, source, kind, across);
     vtBindFramebuffer(gl, rays->framebuffer, count, count);
     gl->UseProgram(pass->program->name);
-    setUniforms(pass, gl, &rays->plan, origin, source, kind, count);
+    setUniforms(pass, gl, &rays->plan, source, kind, count);
     vtTexture_Bind(&rays->lights, gl, vt_samplerGroundLights);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
     const int targets = kind == vt_groundPhotons ? targetCount : 1;
@@ -155,24 +152,23 @@ static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec
         if (kind == vt_groundShade) {
             addShade(rays, source, count);
         } else {
-            ready = addPhotons(rays, source, i == 0, origin, count) && ready;
+            ready = addPhotons(rays, source, i == 0, count) && ready;
         }
     }
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
     return ready;
 }
 
-static vtResult followRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtVec3 origin,
-                           vtError* error)
+static vtResult followRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, vtError* error)
 {
     bool ready = true;
     for (int source = 0; source < rays->plan.sourceCount; ++source) {
         if (vtGroundPlan_IsDark(&rays->plan, source)) {
             continue;
         }
-        drawRays(pass, gl, rays, origin, source, vt_groundShade);
+        drawRays(pass, gl, rays, source, vt_groundShade);
         if (rays->plan.hasGlass) {
-            ready = drawRays(pass, gl, rays, origin, source, vt_groundPhotons) && ready;
+            ready = drawRays(pass, gl, rays, source, vt_groundPhotons) && ready;
         }
     }
     return ready ? vt_ok : vtFail(error, vt_errorMemory, "ground: out of memory for photons");
@@ -188,15 +184,11 @@ static float spacingOf(const vtGroundPlan* plan)
 static vtGroundScene describeScene(const vtSceneBuffer* scene)
 {
     const bool all = scene->hasLooks, any = all || scene->glassCount > 0;
-    vtGroundScene described = {vtAdd(scene->low, scene->origin),
-                               vtAdd(scene->high, scene->origin),
-                               {1.0f, 1.0f, 1.0f},
-                               {0.0f, 0.0f, 0.0f},
-                               scene->lights,
-                               scene->lightCount};
+    vtGroundScene described = {scene->space,       scene->low,          scene->high,      {1.0f, 1.0f, 1.0f},
+                               {0.0f, 0.0f, 0.0f}, scene->placedLights, scene->lightCount};
     if (any) {
-        described.glassLow = all ? described.low : vtAdd(scene->glassMin, scene->origin);
-        described.glassHigh = all ? described.high : vtAdd(scene->glassMax, scene->origin);
+        described.glassLow = all ? described.low : scene->glassMin;
+        described.glassHigh = all ? described.high : scene->glassMax;
     }
     return described;
 }
@@ -215,7 +207,7 @@ vtResult vtGroundPass_MakeMap(vtGroundPass* pass, const vtGL* gl, const vtSceneB
     }
     if (result == vt_ok) {
         vtBindTraced(gl, scene, environment);
-        result = followRays(pass, gl, &rays, scene->origin, error);
+        result = followRays(pass, gl, &rays, error);
     }
     if (result == vt_ok) {
         result = vtGatherLandings(&rays.caustics, gl, scene, spacingOf(&rays.plan), caustics, error);
@@ -234,7 +226,7 @@ vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuff
     vtCausticMap caustics;
     vtResult result = vtGroundPass_MakeMap(pass, gl, scene, environment, &map, &caustics, error);
     if (result == vt_ok) {
-        result = vtGroundBuffer_Set(&pass->buffer, gl, &map, scene->origin, error);
+        result = vtGroundBuffer_Set(&pass->buffer, gl, &map, error);
     }
     if (result == vt_ok) {
         result = vtGroundBuffer_SetCaustics(&pass->buffer, gl, &caustics, error);

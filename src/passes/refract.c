@@ -30,9 +30,12 @@ static vtResult resizeSet(vtRefractPass* pass, const vtGL* gl, int set, int widt
     vtAttachment colors[] = {{&t->paths, 0}, {&t->ends, 0}, {&t->lights, 0}, {&t->asides, 0}};
     vtResult result = vtSucceed(error);
     if (changed) {
+        if (set == 0) {
+            vtDestroyFramebuffers(gl, &pass->glassFramebuffer, 1); // it holds what is gone
+        }
         result = vtMakeFramebuffer(gl, "refract", colors, 4, NULL, &pass->framebuffers[set], error);
     }
-    if (result == vt_ok && set == 0 && surfaceDepth != NULL && (changed || pass->glassFramebuffer == 0)) {
+    if (result == vt_ok && set == 0 && surfaceDepth != NULL && pass->glassFramebuffer == 0) {
         result =
             vtMakeFramebuffer(gl, "refract glass", colors, 4, surfaceDepth, &pass->glassFramebuffer, error);
     }

@@ -9,7 +9,7 @@ static vtProgramDef describe(bool opaque, bool surface, bool host)
     const vtChunk* const chunks[] = {
         opaque ? &vtChunk_with_opaque : NULL,
         surface ? &vtChunk_with_surface : NULL,
-        VT_WITH_HOST && host ? &vtChunk_with_backdrop : NULL,
+        VT_WITH_HOST && host ? &vtChunk_with_host : NULL,
         &vtChunk_octahedral,
         &vtChunk_environment,
         &vtChunk_objects,
@@ -21,7 +21,7 @@ static vtProgramDef describe(bool opaque, bool surface, bool host)
         opaque ? &vtChunk_shading : NULL,
         VT_WITH_HOST && host ? &vtChunk_srgb : NULL,
         VT_WITH_HOST && host ? &vtChunk_host_depth : NULL,
-        VT_WITH_HOST && host ? &vtChunk_backdrop : NULL,
+        VT_WITH_HOST && host ? &vtChunk_host_picture : NULL,
         &vtChunk_surroundings,
         &vtChunk_shade_frag,
     };

@@ -1,5 +1,6 @@
 #include "passes/trace.h"
 
+#include "base/about.h"
 #include "base/error.h"
 #include "scene/material.h"
 #include "shaders.h"
@@ -35,12 +36,14 @@ vtTraceVariant vtChooseTraceVariant(const vtSceneBuffer* scene, const vtEnvironm
     const bool opaque = scene->objectCount > scene->glassCount, looks = scene->hasLooks;
     const bool one = scene->objectCount == 1 && !opaque && !any && !looks && !scene->objects[0].bothSides;
     const bool rough = vtTrace_IsRough(scene, frame);
-    const bool pictures = rough || environment->kind == vt_environmentImage ||
+    const bool spectral = vtTrace_Disperses(scene, frame);
+    const bool fan = spectral && frame->wavelengths < VT_MAX_WAVELENGTHS;
+    const bool pictures = rough || fan || environment->kind == vt_environmentImage ||
                           ((opaque || looks) && scene->images.texture.width > 1);
     only = only && !looks;
-    return (looks ? vt_traceLooks : 0) | (rough ? vt_traceRough : 0) |
-           (vtTrace_Disperses(scene, frame) ? vt_traceSpectral : 0) | (pictures ? vt_traceFootprint : 0) |
-           (one ? vt_traceOneObject : 0) | (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
+    return (looks ? vt_traceLooks : 0) | (rough ? vt_traceRough : 0) | (spectral ? vt_traceSpectral : 0) |
+           (fan ? vt_traceFan : 0) | (pictures ? vt_traceFootprint : 0) | (one ? vt_traceOneObject : 0) |
+           (opaque ? vt_traceOpaque : 0) | (any ? vt_traceHeights : 0) |
            (vtFrame_IsOverlay(frame) || vtFrame_HasHost(frame) ? vt_traceHost : 0) |
            (any && only ? vt_traceOnlyHeights : 0) |
            (vtFrame_IsStrict(frame) && !looks && !rough ? vt_traceStrict : 0) |
@@ -56,6 +59,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0, rough = (variant & vt_traceRough) != 0;
     const bool strict = (variant & vt_traceStrict) != 0, spectral = (variant & vt_traceSpectral) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
+    const bool backdrop = VT_WITH_BACKDROP && (variant & vt_traceBackdrop) != 0;
     const bool ground = (variant & vt_traceGround) != 0, shade = (variant & vt_traceShade) != 0;
     const vtChunk* const chunks[] = {
         photons ? &vtChunk_with_photons : NULL,
@@ -67,8 +71,10 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         shade ? &vtChunk_with_shade : NULL,
         opaque ? &vtChunk_with_opaque : NULL,
         rough ? &vtChunk_with_rough : NULL,
+        (variant & vt_traceFan) != 0 ? &vtChunk_with_fan : NULL,
         records ? NULL : &vtChunk_only_heights,
-        host ? &vtChunk_with_backdrop : NULL,
+        host ? &vtChunk_with_host : NULL,
+        backdrop ? &vtChunk_with_backdrop : NULL,
         host ? &vtChunk_with_depth : NULL,
         (variant & vt_traceFootprint) != 0 ? &vtChunk_footprint : NULL,
         &vtChunk_octahedral,
@@ -94,7 +100,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
         looks ? &vtChunk_cross_look : NULL,
         host ? &vtChunk_srgb : NULL,
         host ? &vtChunk_host_depth : NULL,
-        host ? &vtChunk_backdrop : NULL,
+        host ? &vtChunk_host_picture : NULL,
+        backdrop ? &vtChunk_backdrop : NULL,
         ground ? &vtChunk_ground : NULL,
         &vtChunk_surroundings,
         &vtChunk_trace_frag,
@@ -104,7 +111,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
                         .vertex = {&vtChunk_screen_vert},
                         .uniforms = {"u_branches", "u_ground", photons ? "u_groundRays" : "u_groundMatt",
                                      photons ? "u_groundBox" : "u_sun",
-                                     photons ? "u_groundLight" : "u_wavelengths"}};
+                                     photons ? "u_groundLight" : "u_wavelengths", "u_backdropPlace"}};
     vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
     return def;
 }
@@ -181,6 +188,10 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
         if ((variant & vt_traceGround) != 0) {
             vtTexture_Bind(&inputs->ground->caustics, gl, vt_samplerCaustics);
         }
+    }
+    if (VT_WITH_BACKDROP && (variant & vt_traceBackdrop) != 0) {
+        gl->Uniform4fv(program->uniforms[5], 3, inputs->backdropPlace->plane);
+        vtTexture_Bind(inputs->backdrop, gl, vt_samplerBackdrop);
     }
     if (host) {
         vtHostPicture_Bind(inputs->host, gl);

@@ -5,6 +5,7 @@
 #include "gl/host_picture.h"
 #include "gl/program.h"
 #include "gl/scene_buffer.h"
+#include "light/backdrop.h"
 
 /// What a scene asks of the program; bits.
 typedef enum vtTraceVariant {
@@ -21,7 +22,9 @@ typedef enum vtTraceVariant {
     vt_traceGround = 512, ///< it stands on a ground
     vt_traceRough = 1024, ///< some glass is rough
     vt_traceSpectral = 2048, ///< some glass disperses
+    vt_traceBackdrop = 8192, ///< a backdrop stands behind it; with vt_traceFootprint
     vt_traceShade = 4096,    ///< opaque things are lit by the sun, or by lights of files
+    vt_traceFan = 16384,     ///< colours share paths that disperse
 } vtTraceVariant;
 
 /// Do programs of materials that are not plain look for shadows? Chromium's SwiftShader compiles them for
@@ -48,8 +51,10 @@ typedef struct vtTraceInputs {
     const vtEnvironmentBuffer* environment;
     const vtHostPicture* host;
     const vtGroundBuffer* ground; ///< for a variant with vt_traceGround
-    float sun[16];                ///< for a variant with vt_traceShade: shade.glsl's
-    int branches;                 ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
+    const vtTexture* backdrop;    ///< for a variant with vt_traceBackdrop: the picture
+    const vtBackdropPlace* backdropPlace;
+    float sun[16];   ///< for a variant with vt_traceShade: shade.glsl's
+    int branches;    ///< 0 to VT_MAX_BRANCHES, times that light which left a path is followed
     int wavelengths; ///< 1 to VT_MAX_WAVELENGTHS, that the first sample follows through glass that disperses
 } vtTraceInputs;
 

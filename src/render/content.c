@@ -435,7 +435,37 @@ vtResult vtRenderer_SetBackground(vtRenderer* renderer, const vtImage* picture, 
     if (picture == NULL) {
         vtTexture_Destroy(&renderer->background, &renderer->gl);
     } else {
-        result = vtUploadPicture(&renderer->background, &renderer->gl, picture, "background", error);
+        result = vtUploadPicture(&renderer->background, &renderer->gl, picture, GL_CLAMP_TO_EDGE,
+                                 "background", error);
+    }
+    return endChange(renderer, result, error);
+}
+
+vtResult vtRenderer_SizeBackdrop(vtRenderer* renderer, int width, int height, vtError* error)
+{
+    return vtMakePictureTexture(&renderer->backdropPicture, &renderer->gl, width, height, GL_MIRRORED_REPEAT,
+                                "backdrop", error);
+}
+
+vtResult vtRenderer_SetBackdrop(vtRenderer* renderer, const vtImage* picture, const vtBackdrop* backdrop,
+                                vtError* error)
+{
+    vtResult result = backdrop != NULL ? vtValidateBackdrop(backdrop, error) : vt_ok;
+    result = result == vt_ok ? beginChange(renderer, renderer, VT_ABOUT("the renderer"), error) : result;
+    if (result != vt_ok) {
+        return result;
+    }
+    if (backdrop == NULL) {
+        vtTexture_Destroy(&renderer->backdropPicture, &renderer->gl);
+    } else if (picture != NULL) {
+        result = vtUploadPicture(&renderer->backdropPicture, &renderer->gl, picture, GL_MIRRORED_REPEAT,
+                                 "backdrop", error);
+    } else if (renderer->backdropPicture.name == 0) {
+        result = vtFail(error, vt_errorArgument, "there is no picture for the backdrop; give one");
+    }
+    if (result == vt_ok) {
+        renderer->hasBackdrop = backdrop != NULL;
+        renderer->backdrop = backdrop != NULL ? *backdrop : vtDefaultBackdrop();
     }
     return endChange(renderer, result, error);
 }

@@ -49,15 +49,16 @@ static void writeMaterial(const vtObjectBuffer* object, const vtFrame* frame, ui
     words[4 * VT_OBJECT_IMAGES + 2] = object->firstMore;
 }
 
-/// A relief's heights are in its mesh's own coordinates, its records are from the middle of the mesh.
-static void writeTransform(const vtObjectBuffer* object, vtVec3 origin, uint32_t* words)
+/// `space`: what the shader's coordinates of the object are in. A relief's heights are in those of its mesh.
+static void writeTransform(const vtObjectBuffer* object, const vtSpace* space, uint32_t* words)
 {
-    const float move[3] = {origin.x, origin.y, origin.z};
+    const float move[3] = {space->origin.x, space->origin.y, space->origin.z}, size = 1.0f / space->unit;
     for (int row = 0; row < 3; ++row) {
         const float* r = object->placed.toObject.rows[row];
-        writeNumbers(words, VT_OBJECT_TRANSFORM + row, r[0], r[1], r[2], r[3] + move[row]);
+        writeNumbers(words, VT_OBJECT_TRANSFORM + row, r[0] * size, r[1] * size, r[2] * size,
+                     r[3] * size + move[row]);
     }
-    const vtVec3 low = vtAdd(object->ownMin, origin), high = vtAdd(object->ownMax, origin);
+    const vtVec3 low = vtSpace_Leave(space, object->ownMin), high = vtSpace_Leave(space, object->ownMax);
     writeNumbers(words, VT_OBJECT_OWN_LOW, low.x, low.y, low.z, 0.0f);
     writeNumbers(words, VT_OBJECT_OWN_HIGH, high.x, high.y, high.z, 0.0f);
 }
@@ -83,6 +84,7 @@ static void writeLayers(const vtCamera* camera, const vtPlacedObject* placed, ui
 void vtWriteObjectTable(const vtSceneBuffer* scene, const vtFrame* frame, const vtCamera* camera)
 {
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
+    const vtSpace none = vtOuterSpace();
     for (uint32_t i = 0; i < scene->objectCount; ++i) {
         uint32_t* words = scene->fresh + 4 * VT_OBJECT_TEXELS * (size_t)i;
         const vtObjectBuffer* object = &scene->objects[i];
@@ -90,7 +92,7 @@ void vtWriteObjectTable(const vtSceneBuffer* scene, const vtFrame* frame, const 
         const bool byHeights = row->heights && vtSceneBuffer_HasHeights(scene, i);
         const bool peeled = row->layerSpace == vt_layersOfEachObject && !object->material.opaque;
         memset(words, 0, VT_OBJECT_TEXELS * 4 * sizeof *words);
-        writeTransform(object, byHeights ? geometry->origin : (vtVec3){0.0f, 0.0f, 0.0f}, words);
+        writeTransform(object, byHeights ? &geometry->space : &none, words);
         // A little more than the box: a ray that starts on its side is within it. Layers are widened by whole
         // texels (search_layered.glsl).
         writeBox(&object->placed, peeled ? 0.0f : 1e-5f, words);

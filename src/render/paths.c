@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/about.h"
+#include "base/error.h"
 #include "image/image.h"
 #include "render/renderer.h"
 #include "technique/technique.h"
@@ -52,6 +53,11 @@ bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame)
     return VT_IS_FULL && renderer->ground.isThere && vtTechnique_Row(frame->technique)->traces;
 }
 
+bool vtRenderer_ShowsBackdrop(const vtRenderer* renderer, const vtFrame* frame)
+{
+    return VT_WITH_BACKDROP && renderer->hasBackdrop && vtTechnique_Row(frame->technique)->traces;
+}
+
 /// The variant of the trace pass.
 static vtTraceVariant chooseTrace(const vtRenderer* renderer, const vtFrame* frame)
 {
@@ -59,7 +65,9 @@ static vtTraceVariant chooseTrace(const vtRenderer* renderer, const vtFrame* fra
     const bool shades = ground && hasOpaque(renderer) && (VT_SHADES_LOOKS || !renderer->scene.hasLooks);
     const vtSun sun = vtGivenSun(&renderer->ground.ground, &renderer->environment.sun);
     return vtChooseTraceVariant(&renderer->scene, &renderer->environment, frame) |
-           (ground ? vt_traceGround : 0) | (shades && vtSun_IsThere(&sun) ? vt_traceShade : 0);
+           (ground ? vt_traceGround : 0) |
+           (vtRenderer_ShowsBackdrop(renderer, frame) ? vt_traceBackdrop | vt_traceFootprint : 0) |
+           (shades && vtSun_IsThere(&sun) ? vt_traceShade : 0);
 }
 
 /// Is the sun of the environment a light of its own in the frame?
@@ -155,14 +163,34 @@ static vtResult resizeLayers(vtRenderer* renderer, const vtFrame* frame, int lay
                            : result;
 }
 
+vtResult vtRenderer_CheckSize(const vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    const vtTexture* light =
+        vtTechnique_Row(frame->technique)->traces ? &renderer->trace.radiance : &renderer->shade.radiance;
+    GLint largest = frame->width > frame->height ? frame->width : frame->height;
+    if (light->width != frame->width || light->height != frame->height) {
+        renderer->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    }
+    return frame->width <= largest && frame->height <= largest
+               ? vt_ok
+               : vtFail(
+                     error, vt_errorContext,
+                     "frame: %d x %d is more than this GPU's largest texture (%d); ask for a smaller picture",
+                     frame->width, frame->height, largest);
+}
+
 vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
                                   vtError* error)
 {
     const vtGL* gl = &renderer->gl;
-    vtResult result = vtTechnique_Row(frame->technique)->traces
-                          ? vtTracePass_Resize(&renderer->trace, gl, chooseTrace(renderer, frame),
-                                               frame->width, frame->height, error)
-                          : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
+    vtResult result = vtRenderer_CheckSize(renderer, frame, error);
+    if (result != vt_ok) {
+        return result;
+    }
+    result = vtTechnique_Row(frame->technique)->traces
+                 ? vtTracePass_Resize(&renderer->trace, gl, chooseTrace(renderer, frame), frame->width,
+                                      frame->height, error)
+                 : resizeLayers(renderer, frame, layerWidth, layerHeight, error);
     if (result == vt_ok && (hasOpaque(renderer) || vtTrace_IsRough(&renderer->scene, frame))) {
         result = vtEnvironmentBuffer_Light(&renderer->environment, gl, partsSun(renderer, frame), error);
     }
@@ -253,6 +281,8 @@ void vtRenderer_DrawPaths(vtRenderer* renderer, const vtFrame* frame, bool layer
                             .environment = &renderer->environment,
                             .host = &renderer->host,
                             .ground = &renderer->ground.buffer,
+                            .backdrop = &renderer->backdropPicture,
+                            .backdropPlace = &renderer->backdropPlace,
                             .branches = vtFrame_BranchCount(frame),
                             .wavelengths = vtResolveFrame(frame).wavelengths};
     findSuns(renderer, frame, inputs.sun);

@@ -27,12 +27,17 @@ static vtResult drawOffscreen(vtRenderer* renderer, const vtFrame* frame, GLenum
                               GLenum type, void* rgba, vtError* error)
 {
     const vtGL* gl = &renderer->gl;
+    const vtResult fits = vtRenderer_CheckSize(renderer, frame, error);
+    if (fits != vt_ok) {
+        return fits;
+    }
     vtTakeState(gl);
     if (vtTexture_Resize(&renderer->image, gl, format, frame->width, frame->height, 0)) {
         vtAttachment color = {&renderer->image, 0};
         const vtResult made =
             vtMakeFramebuffer(gl, "image", &color, 1, NULL, &renderer->imageFramebuffer, error);
         if (made != vt_ok) {
+            vtRenderer_DropTargets(renderer);
             return made;
         }
     }
@@ -53,7 +58,7 @@ static vtResult drawOffscreen(vtRenderer* renderer, const vtFrame* frame, GLenum
     gl->ReadPixels(0, 0, frame->width, frame->height, layout, type, rgba);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
     flipRows(rgba, (type == GL_UNSIGNED_BYTE ? 4 : 16) * (size_t)frame->width, frame->height);
-    return vtCheckGL(gl, "reading the picture back", error);
+    return vtRenderer_CheckDrawn(renderer, "reading the picture back", error);
 }
 
 static vtResult checkFrame(const vtRenderer* renderer, const vtFrame* frame, vtError* error)
@@ -121,11 +126,11 @@ vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtEr
     for (size_t i = 0; i < count; ++i) {
         const uint32_t* from = paths + 4 * i;
         float* to = directions + 3 * i;
-        const int state = (int)(from[3] & 255u);
-        if (state == VT_PATH_EXITED || (state == VT_PATH_OPAQUE && ((from[3] >> 8) & 255u) > 0)) {
+        const bool lost = (from[3] & 255u) == VT_PATH_LOST;
+        if (!lost && (from[3] >> 8 & 255u) > 0) { // else it goes on as it came: glass of index 1, a thin wall
             memcpy(to, from, 3 * sizeof(float));
         } else {
-            to[0] = to[1] = to[2] = state == VT_PATH_LOST ? 2.0f : 0.0f;
+            to[0] = to[1] = to[2] = lost ? 2.0f : 0.0f;
         }
     }
     vtFree(paths);

@@ -63,22 +63,14 @@ void vtDestroyRenderer(vtRenderer* renderer)
         return;
     }
     const vtGL* gl = &renderer->gl;
-    vtSurfacePass_Destroy(&renderer->surface, gl);
-    vtPeelPass_Destroy(&renderer->peel, gl);
-    vtMergePass_Destroy(&renderer->merge, gl);
-    vtRefractPass_Destroy(&renderer->refract, gl);
-    vtShadePass_Destroy(&renderer->shade, gl);
-    vtTracePass_Destroy(&renderer->trace, gl);
-    vtGroundPass_Destroy(&renderer->ground, gl);
-    vtAccumulatePass_Destroy(&renderer->accumulate, gl);
+    vtRenderer_DropTargets(renderer);
     vtHostPicture_Destroy(&renderer->host, gl);
     vtSceneBuffer_Destroy(&renderer->scene, gl);
     vtSlots_Destroy(&renderer->geometrySlots);
     vtSlots_Destroy(&renderer->instanceSlots);
     vtEnvironmentBuffer_Destroy(&renderer->environment, gl);
-    vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
-    vtTexture_Destroy(&renderer->image, gl);
     vtTexture_Destroy(&renderer->background, gl);
+    vtTexture_Destroy(&renderer->backdropPicture, gl);
     gl->DeleteBuffers(1, &renderer->uniformBuffer);
     gl->DeleteVertexArrays(1, &renderer->emptyVertexArray);
     vtProgramStore_Leave(gl->programs, gl);
@@ -94,6 +86,33 @@ vtResult vtRenderer_SetLaterShaders(vtRenderer* renderer, const char* file, vtEr
     }
     renderer->gl.laterShaders = file + strlen(file) + 1;
     return vtSucceed(error);
+}
+
+void vtRenderer_DropTargets(vtRenderer* renderer)
+{
+    const vtGL* gl = &renderer->gl;
+    vtSurfacePass_Destroy(&renderer->surface, gl);
+    vtPeelPass_Destroy(&renderer->peel, gl);
+    vtMergePass_Destroy(&renderer->merge, gl);
+    vtRefractPass_Destroy(&renderer->refract, gl);
+    vtShadePass_Destroy(&renderer->shade, gl);
+    vtTracePass_Destroy(&renderer->trace, gl);
+    vtAccumulatePass_Destroy(&renderer->accumulate, gl);
+    vtGroundBuffer_Destroy(&renderer->ground.buffer, gl);
+    vtEnvironmentBuffer_DropLight(&renderer->environment, gl);
+    vtSceneBuffer_DropTables(&renderer->scene, gl);
+    vtDestroyFramebuffers(gl, &renderer->imageFramebuffer, 1);
+    vtTexture_Destroy(&renderer->image, gl);
+    vtForgetDrawn(renderer);
+}
+
+vtResult vtRenderer_CheckDrawn(vtRenderer* renderer, const char* doing, vtError* error)
+{
+    const vtResult result = vtCheckGL(&renderer->gl, doing, error);
+    if (result != vt_ok) {
+        vtRenderer_DropTargets(renderer);
+    }
+    return result;
 }
 
 static void drawStraight(vtRenderer* renderer, const vtFrame* frame)
@@ -157,7 +176,7 @@ static bool movesOn(const vtRenderer* renderer, const vtFrame* frame)
            frame->technique == before->technique;
 }
 
-vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* error)
+static vtResult drawFrame(vtRenderer* renderer, const vtFrame* asked, vtError* error)
 {
     vtFrame resolved;
     vtCamera camera;
@@ -173,6 +192,12 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     vtFrameUniforms uniforms;
     vtProgramList programs = {0};
     vtMakeUniforms(&renderer->scene, frame, &camera, renderer->environment.kind, &uniforms);
+    if (vtRenderer_ShowsBackdrop(renderer, frame)) {
+        const vtTexture* picture = &renderer->backdropPicture;
+        renderer->backdropPlace =
+            vtPlaceBackdrop(&renderer->backdrop, picture->width, picture->height, frame, &camera,
+                            renderer->scene.glassMin, renderer->scene.glassMax, renderer->scene.space.unit);
+    }
     vtRenderer_StartPrograms(renderer, frame, &programs);
     result = vtRenderer_ResizeTargets(renderer, frame, uniforms.size[2], uniforms.size[3], error);
     if (result == vt_ok) {
@@ -206,6 +231,15 @@ vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* asked, vtError* er
     return vtCheckFrame(gl, "drawing the frame", error);
 }
 
+vtResult vtRenderer_Draw(vtRenderer* renderer, const vtFrame* frame, vtError* error)
+{
+    const vtResult result = drawFrame(renderer, frame, error);
+    if (result == vt_errorContext || result == vt_errorMemory) {
+        vtRenderer_DropTargets(renderer);
+    }
+    return result;
+}
+
 vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
 {
     if (renderer == NULL) {
@@ -222,7 +256,7 @@ vtRendererInfo vtRenderer_Info(const vtRenderer* renderer)
                         vtSceneBuffer_TextureBytes(&renderer->scene) +
                         vtEnvironmentBuffer_Bytes(&renderer->environment) +
                         vtAccumulatePass_Bytes(&renderer->accumulate) + vtTexture_Bytes(&renderer->image) +
-                        vtTexture_Bytes(&renderer->background),
+                        vtTexture_Bytes(&renderer->background) + vtTexture_Bytes(&renderer->backdropPicture),
         .meshBytes = vtGeometryStore_MeshBytes(&renderer->scene.geometry),
         .heightBytes = vtGeometryStore_HeightBytes(&renderer->scene.geometry),
         .layerWidth = renderer->peel.depths.width,

@@ -42,6 +42,10 @@ struct vtRenderer {
     vtSlots geometrySlots, instanceSlots;
     vtEnvironmentBuffer environment;
     vtTexture background; // the picture; not there: none
+    vtTexture backdropPicture;
+    vtBackdrop backdrop;
+    bool hasBackdrop;
+    vtBackdropPlace backdropPlace; // of the frame
     // What the next frame has to agree with to go on with the samples.
     vtFrame frame;            // the last, as it was drawn
     vtFrameUniforms uniforms; // its own, of the pixel's centre
@@ -58,6 +62,14 @@ vtResult vtCheckGiven(const vtRenderer* renderer, const void* thing, const char*
 /// What was computed of the content before: the samples, and what falls on the ground.
 void vtForgetDrawn(vtRenderer* renderer);
 
+/// After a frame that GL had no memory for, or was lost in: whatever frames make for themselves may be half
+/// made, so it goes, and the next frame makes it anew.
+void vtRenderer_DropTargets(vtRenderer* renderer);
+
+/// As vtCheckGL of what a frame has made, which goes where GL tells of an error. For browsers, where frames
+/// do not ask (vtCheckFrame): once the GPU is done.
+vtResult vtRenderer_CheckDrawn(vtRenderer* renderer, const char* doing, vtError* error);
+
 /// Of a page, which loads some shaders once a frame lacks them: the file that cmake/EmbedShaders.cmake made,
 /// with 0 for each form feed and one more at its end. The caller keeps it. Fails where it is another build's.
 vtResult vtRenderer_SetLaterShaders(vtRenderer* renderer, const char* file, vtError* error);
@@ -70,8 +82,18 @@ vtResult vtRenderer_ResolveFrame(vtRenderer* renderer, const vtFrame* asked, vtF
 /// Is a ground seen in the frame?
 bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame);
 
+/// Is the backdrop seen in the frame?
+bool vtRenderer_ShowsBackdrop(const vtRenderer* renderer, const vtFrame* frame);
+
+/// Of a page, which fills it: the texture of a backdrop's picture of that size, bound. Fails as
+/// vtRenderer_SetBackground does.
+vtResult vtRenderer_SizeBackdrop(vtRenderer* renderer, int width, int height, vtError* error);
+
 /// Starts the programs that the frame draws with.
 void vtRenderer_StartPrograms(vtRenderer* renderer, const vtFrame* frame, vtProgramList* programs);
+
+/// Has this GPU textures as large as the picture? It is not asked again for a size that was drawn last.
+vtResult vtRenderer_CheckSize(const vtRenderer* renderer, const vtFrame* frame, vtError* error);
 
 vtResult vtRenderer_ResizeTargets(vtRenderer* renderer, const vtFrame* frame, int layerWidth, int layerHeight,
                                   vtError* error);

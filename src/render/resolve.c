@@ -81,12 +81,12 @@ vtResult vtRenderer_ResolveFrame(vtRenderer* renderer, const vtFrame* asked, vtF
     }
     *frame = vtResolveFrame(asked);
     frame->background = frame->overlay ? vt_backgroundTransparent : frame->background;
-    frame->view.eye = vtSub(frame->view.eye, renderer->scene.origin);
-    frame->view.target = vtSub(frame->view.target, renderer->scene.origin);
-    *camera = vtMakeCamera(frame);
-    if (frame->viewMatrix != NULL) {
-        camera->eye = vtSub(camera->eye, renderer->scene.origin);
+    if (vtRenderer_ShowsBackdrop(renderer, frame)) {
+        frame->toneMapping = vt_toneMappingNone; // the picture's colours stay
     }
+    *camera = vtMakeCamera(frame);
+    vtCamera_Enter(camera, &renderer->scene.space);
+    frame->wallThickness *= renderer->scene.space.unit;
     const vtTechniqueRow* row = vtTechnique_Row(frame->technique);
     if (frame->background == vt_backgroundPicture && renderer->background.name == 0) {
         return vtFail(error, vt_errorArgument,

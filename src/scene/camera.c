@@ -10,9 +10,18 @@
 // How far the default view looks down, and round to the right; that of the truth images.
 static const vtVec3 defaultDirection = {0.1167f, 0.0972f, 0.9884f};
 
+/// In double: of squares of lengths floats hold only those between 1e-19 and 1e19.
+static vtVec3 directionTo(vtVec3 from, vtVec3 to)
+{
+    const double x = (double)to.x - (double)from.x, y = (double)to.y - (double)from.y,
+                 z = (double)to.z - (double)from.z, length = sqrt(x * x + y * y + z * z);
+    const double scale = length > 0.0 ? 1.0 / length : 0.0;
+    return (vtVec3){(float)(x * scale), (float)(y * scale), (float)(z * scale)};
+}
+
 vtCamera vtMakeViewCamera(const vtView* view)
 {
-    vtVec3 forward = vtNormalize(vtSub(view->target, view->eye));
+    vtVec3 forward = directionTo(view->eye, view->target);
     vtVec3 worldUp = {0.0f, 1.0f, 0.0f};
     // Looking straight up or down leaves the roll open: let -Z be up then, as on a map.
     if (fabsf(forward.y) > 0.99999f) {
@@ -129,6 +138,22 @@ vtCamera vtMakeCamera(const vtFrame* frame)
     camera.clip[1] = -1.0f;
     camera.farthest = 3e38f;
     return camera;
+}
+
+void vtCamera_Enter(vtCamera* camera, const vtSpace* space)
+{
+    const float unit = space->unit;
+    camera->eye = vtSpace_Enter(space, camera->eye);
+    camera->farthest *= camera->farthest < 3e38f ? unit : 1.0f;
+    for (int axis = 0; axis < 2 && camera->orthographic; ++axis) {
+        camera->low[axis] *= unit;
+        camera->high[axis] *= unit;
+    }
+    if (camera->orthographic) { // clip coordinates stay as they are
+        camera->clip[0] /= unit;
+    } else {
+        camera->clip[1] *= unit;
+    }
 }
 
 void vtPixelSample(int index, float* x, float* y)
@@ -253,8 +278,9 @@ vtView vtViewOfScene(const vtScene* scene, float fovY, float aspect)
         }
     }
     const vtVec3 centre = vtScale(vtAdd(low, high), 0.5f), direction = vtNormalize(defaultDirection);
-    vtView view = {vtAdd(centre, direction), centre, fovY};
+    vtView view = {direction, {0.0f, 0.0f, 0.0f}, fovY}; // far from the origin a unit is nothing
     const vtCamera camera = vtMakeViewCamera(&view);
+    view.target = centre;
     const float tangentY = 0.9f * tanf(view.fovY * VT_PI / 360.0f), tangentX = tangentY * aspect;
     float distance = 0.0f;
     for (uint32_t i = 0; i < count; ++i) {

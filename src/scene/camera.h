@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/about.h"
+#include "base/space.h"
 #include "vitrine.h"
 
 /// Orthonormal axes: `right`, `up` and `forward` are left-handed on purpose: the third
@@ -23,6 +24,8 @@ typedef struct vtFrustum {
 /// Axes only; and all of it, of a valid frame.
 vtCamera vtMakeViewCamera(const vtView* view);
 vtCamera vtMakeCamera(const vtFrame* frame);
+/// Takes it into a space of the world.
+void vtCamera_Enter(vtCamera* camera, const vtSpace* space);
 
 /// A view that shows all that these show, which look the same way (vtViewOfScene of a scene at several
 /// times).

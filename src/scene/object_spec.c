@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/about.h"
 #include "base/error.h"
 
 #define ANYWHERE -1e9, 1e9
@@ -30,6 +31,11 @@ static const vtObjectKeyInfo keys[vt_keyCount] = {
     [vt_keyChecker] = {"checker", 0, 1, 0, 1000, 8},
     [vt_keyThin] = {"thin", 0, 0, 0, 0, 0},
     [vt_keyDispersion] = {"dispersion", 1, 1, 0, 20, 0},
+    [vt_keyWidth] = {"width", 1, 1, VT_MIN_PANEL, VT_MAX_PANEL, 0},
+    [vt_keyHeight] = {"height", 1, 1, VT_MIN_PANEL, VT_MAX_PANEL, 0},
+    [vt_keyRadius] = {"radius", 1, 1, 0, VT_MAX_PANEL, 0},
+    [vt_keyBevel] = {"bevel", 1, 1, 0, VT_MAX_PANEL, 0},
+    [vt_keyThickness] = {"thickness", 1, 1, VT_MIN_PANEL, VT_MAX_PANEL, 0},
     [vt_keyImage] = {"image", 0, 0, 0, 0, 0},
 };
 
@@ -315,11 +321,15 @@ static void applyToMaterial(const vtObjectSpec* spec, vtMaterial* material)
 
 vtResult vtObjectSpec_Check(const vtObjectSpec* spec, vtObjectKind kind, const char* option, vtError* error)
 {
-    for (int key = vt_keyRelief; key <= vt_keySamples && kind == vt_kindMesh; ++key) {
-        if (isGiven(spec, (vtObjectKey)key)) {
+    const bool isRelief = kind == vt_kindReliefFile || kind == vt_kindReliefPattern;
+    for (int key = 0; key < vt_keyCount; ++key) {
+        const bool ofRelief = key >= vt_keyRelief && key <= vt_keySamples;
+        const bool ofPanel = key >= vt_keyWidth && key <= vt_keyThickness;
+        if (isGiven(spec, (vtObjectKey)key) &&
+            ((ofRelief && !isRelief) || (ofPanel && kind != vt_kindPanel))) {
             return vtFail(error, vt_errorArgument,
-                          "%s '%.200s' is no relief, so the key '%s' says nothing to it; leave it out",
-                          option, spec->name, keys[key].name);
+                          "%s '%.200s' is no %s, so the key '%s' says nothing to it; leave it out", option,
+                          spec->name, ofPanel ? "panel" : "relief", keys[key].name);
         }
     }
     if (kind == vt_kindReliefFile && isGiven(spec, vt_keySamples)) {
@@ -328,6 +338,25 @@ vtResult vtObjectSpec_Check(const vtObjectSpec* spec, vtObjectKind kind, const c
                       spec->name);
     }
     return vt_ok;
+}
+
+vtObjectKind vtKindOfShape(const char* name)
+{
+    return VT_WITH_BACKDROP && strcmp(name, "panel") == 0 ? vt_kindPanel : vt_kindMesh;
+}
+
+vtResult vtObjectSpec_CreateShape(const vtObjectSpec* spec, const char* name, vtMesh* mesh, vtError* error)
+{
+    if (spec == NULL || vtKindOfShape(name) != vt_kindPanel) {
+        return vtCreateShape(name, mesh, error);
+    }
+    vtPanelDef def = vtDefaultPanelDef();
+    copyNumber(spec, vt_keyWidth, &def.width);
+    copyNumber(spec, vt_keyHeight, &def.height);
+    copyNumber(spec, vt_keyRadius, &def.radius);
+    copyNumber(spec, vt_keyBevel, &def.bevel);
+    copyNumber(spec, vt_keyThickness, &def.thickness);
+    return vtCreatePanel(&def, mesh, error);
 }
 
 void vtObjectSpec_ApplyToRelief(const vtObjectSpec* spec, vtReliefDef* def)

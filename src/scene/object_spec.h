@@ -27,6 +27,11 @@ typedef enum vtObjectKey {
     vt_keyChecker,
     vt_keyThin,
     vt_keyDispersion,
+    vt_keyWidth, ///< these five: of a panel only
+    vt_keyHeight,
+    vt_keyRadius,
+    vt_keyBevel,
+    vt_keyThickness,
     vt_keyImage, ///< its value is text; of vt_keyGlass it can be
     vt_keyCount,
 } vtObjectKey;
@@ -53,12 +58,19 @@ vtResult vtParseObject(const char* text, const char* option, bool isName, vtObje
 
 typedef enum vtObjectKind {
     vt_kindMesh, ///< shape or model
+    vt_kindPanel,
     vt_kindReliefFile,
     vt_kindReliefPattern,
 } vtObjectKind;
 
 /// Fails with a sentence where a key is given that says nothing to what the name turned out to be.
 vtResult vtObjectSpec_Check(const vtObjectSpec* spec, vtObjectKind kind, const char* option, vtError* error);
+
+/// What a built-in shape of that name is.
+vtObjectKind vtKindOfShape(const char* name);
+
+/// vtCreateShape; a panel has the numbers that are given. `spec` may be NULL.
+vtResult vtObjectSpec_CreateShape(const vtObjectSpec* spec, const char* name, vtMesh* mesh, vtError* error);
 
 /// The numbers of a relief that are given.
 void vtObjectSpec_ApplyToRelief(const vtObjectSpec* spec, vtReliefDef* def);

@@ -18,25 +18,32 @@ static void nameObject(const vtScene* scene, uint32_t index, char* text, size_t 
     snprintf(text, size, name[0] != '\0' ? "object %u ('%s')" : "object %u", index, name);
 }
 
-static float determinant(const vtTransform* t)
+/// In double: the product of three scales that are floats is none.
+static double determinant(const vtTransform* t)
 {
-    const vtVec3 x = vtMakeVec3(t->rows[0]), y = vtMakeVec3(t->rows[1]), z = vtMakeVec3(t->rows[2]);
-    return vtDot(vtCross(x, y), z);
+    const float(*r)[4] = t->rows;
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        const int k = (i + 1) % 3, l = (i + 2) % 3;
+        sum += (double)r[0][i] * ((double)r[1][k] * (double)r[2][l] - (double)r[1][l] * (double)r[2][k]);
+    }
+    return sum;
 }
 
-static vtTransform invert(const vtTransform* t, float scale)
+static vtTransform invert(const vtTransform* t)
 {
-    const vtVec3 x = vtMakeVec3(t->rows[0]), y = vtMakeVec3(t->rows[1]), z = vtMakeVec3(t->rows[2]);
-    const vtVec3 columns[3] = {vtScale(vtCross(y, z), 1.0f / scale), vtScale(vtCross(z, x), 1.0f / scale),
-                               vtScale(vtCross(x, y), 1.0f / scale)};
+    const double scale = determinant(t);
     vtTransform inverse;
     for (int row = 0; row < 3; ++row) {
-        float* r = inverse.rows[row];
+        double moved = 0.0;
         for (int column = 0; column < 3; ++column) {
-            const vtVec3 c = columns[column];
-            r[column] = row == 0 ? c.x : row == 1 ? c.y : c.z;
+            const float *a = t->rows[(column + 1) % 3], *b = t->rows[(column + 2) % 3];
+            const int k = (row + 1) % 3, l = (row + 2) % 3;
+            const double part = ((double)a[k] * (double)b[l] - (double)a[l] * (double)b[k]) / scale;
+            inverse.rows[row][column] = (float)part;
+            moved -= part * (double)t->rows[column][3];
         }
-        r[3] = -(r[0] * t->rows[0][3] + r[1] * t->rows[1][3] + r[2] * t->rows[2][3]);
+        inverse.rows[row][3] = (float)moved;
     }
     return inverse;
 }
@@ -53,7 +60,7 @@ static bool isFinite(const vtTransform* t)
 /// Six times the volume, without sign.
 static double volumeOf(const vtPlacedObject* placed)
 {
-    return 6.0 * fabs(placed->mesh->volume) * fabs((double)determinant(&placed->toWorld));
+    return 6.0 * fabs(placed->mesh->volume) * fabs(determinant(&placed->toWorld));
 }
 
 static float absorb(float color, float distance)
@@ -64,10 +71,13 @@ static float absorb(float color, float distance)
 vtResult vtCheckObject(const vtObject* object, const vtMaterial* material, const char* name, vtError* error)
 {
     const vtTransform* t = &object->toWorld;
-    const float scale = determinant(t);
-    const float size = vtLength(vtMakeVec3(t->rows[0])) * vtLength(vtMakeVec3(t->rows[1])) *
-                       vtLength(vtMakeVec3(t->rows[2]));
-    if (!isFinite(t) || !(fabsf(scale) > 1e-6f * size) || !isnormal(scale)) {
+    double size = 1.0; // of a box as long as the rows
+    for (int row = 0; row < 3; ++row) {
+        const float* r = t->rows[row];
+        size *= sqrt((double)r[0] * (double)r[0] + (double)r[1] * (double)r[1] + (double)r[2] * (double)r[2]);
+    }
+    const double volume = fabs(determinant(t));
+    if (!isFinite(t) || !(volume > 1e-6 * size) || !(volume > 0.9e-54)) {
         return vtFail(error, vt_errorGeometry,
                       "scene: %s is scaled to nothing along an axis; give it a scale other than 0", name);
     }
@@ -110,6 +120,22 @@ static vtResult checkContents(const vtScene* scene, uint32_t index, vtError* err
     return vt_ok;
 }
 
+static vtResult checkReach(const vtPlacedObject* placed, const char* name, vtError* error)
+{
+    const float ends[] = {placed->low.x,  placed->low.y,  placed->low.z,
+                          placed->high.x, placed->high.y, placed->high.z};
+    for (int i = 0; i < 6; ++i) {
+        if (!(fabsf(ends[i]) <= VT_MOST_COORDINATE)) { // written so that NaN fails
+            return vtFail(
+                error, vt_errorGeometry,
+                "scene: %s reaches %g from the origin; it must be %g at most; scale it down or move it "
+                "nearer",
+                name, (double)fabsf(ends[i]), (double)VT_MOST_COORDINATE);
+        }
+    }
+    return vt_ok;
+}
+
 static vtResult placeObject(const vtScene* scene, uint32_t index, vtPlacedObject* placed, vtError* error)
 {
     const vtObject* object = &scene->objects[index];
@@ -125,7 +151,6 @@ static vtResult placeObject(const vtScene* scene, uint32_t index, vtPlacedObject
     if (result != vt_ok) {
         return result;
     }
-    const float scale = determinant(&object->toWorld);
     const vtVec3 color = material->attenuationColor;
     const float distance = material->attenuationDistance;
     *placed = (vtPlacedObject){
@@ -133,16 +158,17 @@ static vtResult placeObject(const vtScene* scene, uint32_t index, vtPlacedObject
         .material = material,
         .meshIndex = object->mesh,
         .object = index,
+        .own = vtOuterSpace(),
         .toWorld = object->toWorld,
-        .toObject = invert(&object->toWorld, scale),
+        .toObject = invert(&object->toWorld),
         .absorption = {absorb(color.x, distance), absorb(color.y, distance), absorb(color.z, distance)},
-        .mirrored = scale < 0.0f,
+        .mirrored = determinant(&object->toWorld) < 0.0,
         .plain = scene->lightCount == 0 &&
                  vtMaterial_IsPlain(material, scene->meshes[object->mesh].colors != NULL),
     };
     vtBoundBox(&placed->toWorld, placed->mesh->boundsMin, placed->mesh->boundsMax, &placed->low,
                &placed->high);
-    return vt_ok;
+    return checkReach(placed, name, error);
 }
 
 /// What objects are sorted by; the last ones only so that no order of the scene's matters.
@@ -219,6 +245,36 @@ static void findThinWalls(const vtScene* scene, vtPlacedObject* placed, uint32_t
     }
 }
 
+/// What has no extent cannot be seen, and no eye can be placed before it.
+static vtResult checkExtent(const vtScene* scene, vtPlacedObject** placed, vtError* error)
+{
+    bool any = false, anyOwn = false;
+    for (uint32_t i = 0; i < scene->objectCount; ++i) {
+        const vtPlacedObject* object = &(*placed)[i];
+        const vtVec3 size = vtSub(object->high, object->low),
+                     own = vtSub(object->mesh->boundsMax, object->mesh->boundsMin),
+                     apart = vtSub(object->low, (*placed)[0].low);
+        any = any || size.x + size.y + size.z > 0.0f || vtDot(apart, apart) > 0.0f;
+        anyOwn = anyOwn || own.x + own.y + own.z > 0.0f;
+    }
+    if (any) {
+        return vt_ok;
+    }
+    const vtVec3 at = (*placed)[0].low;
+    vtFree(*placed);
+    *placed = NULL;
+    return anyOwn
+               ? vtFail(
+                     error, vt_errorGeometry,
+                     "scene: it is so small and lies so far from the origin, at (%g, %g, %g), that all its "
+                     "points are the same; move it nearer, or scale it up",
+                     (double)at.x, (double)at.y, (double)at.z)
+               : vtFail(error, vt_errorGeometry,
+                        "scene: all its points are the same, (%g, %g, %g), so there is nothing to see; give "
+                        "its meshes an extent",
+                        (double)at.x, (double)at.y, (double)at.z);
+}
+
 vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error)
 {
     *placed = NULL;
@@ -230,7 +286,8 @@ vtResult vtPlaceObjects(const vtScene* scene, vtPlacedObject** placed, uint32_t*
     for (uint32_t i = 0; scene->objects != NULL && i < scene->objectCount && result == vt_ok; ++i) {
         result = checkContents(scene, i, error);
     }
-    return result == vt_ok ? vtPlaceShapes(scene, placed, glassCount, error) : result;
+    result = result == vt_ok ? vtPlaceShapes(scene, placed, glassCount, error) : result;
+    return result == vt_ok ? checkExtent(scene, placed, error) : result;
 }
 
 vtResult vtPlaceShapes(const vtScene* scene, vtPlacedObject** placed, uint32_t* glassCount, vtError* error)
@@ -300,17 +357,45 @@ bool vtScene_UsesSolid(const vtScene* scene, uint32_t mesh)
     return used;
 }
 
-void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world)
+vtSpace vtSpaceOfObjects(const vtPlacedObject* placed, uint32_t count)
 {
-    const float to[3] = {world.x, world.y, world.z};
+    vtVec3 low = {FLT_MAX, FLT_MAX, FLT_MAX}, high = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    for (uint32_t i = 0; i < count; ++i) {
+        const vtVec3 a = placed[i].low, b = placed[i].high;
+        low = (vtVec3){fminf(low.x, a.x), fminf(low.y, a.y), fminf(low.z, a.z)};
+        high = (vtVec3){fmaxf(high.x, b.x), fmaxf(high.y, b.y), fmaxf(high.z, b.z)};
+    }
+    return vtSpaceOfBox(low, high);
+}
+
+void vtPlacedObject_Enter(vtPlacedObject* placed, const vtSpace* own, const vtSpace* world)
+{
+    const double to[3] = {(double)world->origin.x, (double)world->origin.y, (double)world->origin.z};
+    const double unit = (double)world->unit;
     for (int row = 0; row < 3; ++row) {
         float* r = placed->toWorld.rows[row];
-        r[3] = (float)((double)r[0] * (double)own.x + (double)r[1] * (double)own.y +
-                       (double)r[2] * (double)own.z + (double)r[3] - (double)to[row]);
+        r[3] = (float)(unit * ((double)r[0] * (double)own->origin.x + (double)r[1] * (double)own->origin.y +
+                               (double)r[2] * (double)own->origin.z + (double)r[3] - to[row]));
+        for (int column = 0; column < 3; ++column) {
+            r[column] = (float)((double)r[column] * unit / (double)own->unit);
+        }
     }
-    placed->toObject = invert(&placed->toWorld, determinant(&placed->toWorld));
-    vtBoundBox(&placed->toWorld, vtSub(placed->mesh->boundsMin, own), vtSub(placed->mesh->boundsMax, own),
-               &placed->low, &placed->high);
+    placed->own = *own;
+    placed->toObject = invert(&placed->toWorld);
+    placed->absorption = vtScale(placed->absorption, 1.0f / world->unit);
+    vtBoundBox(&placed->toWorld, vtSpace_Enter(own, placed->mesh->boundsMin),
+               vtSpace_Enter(own, placed->mesh->boundsMax), &placed->low, &placed->high);
+}
+
+vtLight vtLight_Enter(const vtLight* light, const vtSpace* space)
+{
+    vtLight entered = *light;
+    entered.position = vtSpace_Enter(space, light->position);
+    entered.range *= space->unit;
+    if (light->kind != vt_lightDirectional) { // falls with the square of the distance
+        entered.color = vtScale(vtScale(light->color, space->unit), space->unit);
+    }
+    return entered;
 }
 
 uint32_t vtScene_Relief(const vtScene* scene)
@@ -324,6 +409,12 @@ uint32_t vtScene_Relief(const vtScene* scene)
     return glass < scene->meshCount ? glass : opaque;
 }
 
+static vtVec3 ownVertex(const vtPlacedObject* placed, uint32_t corner)
+{
+    const vtMesh* mesh = placed->mesh;
+    return vtSpace_Enter(&placed->own, vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[corner]));
+}
+
 bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point)
 {
     const vtVec3 low = placed->low, high = placed->high;
@@ -334,14 +425,14 @@ bool vtPlacedObject_Contains(const vtPlacedObject* placed, vtVec3 point)
     const vtMesh* mesh = placed->mesh;
     const vtVec3 p = vtTransformPoint(&placed->toObject, point);
     if (mesh->heights != NULL) {
-        return vtHeightField_Contains(mesh->heights, p);
+        return vtHeightField_Contains(mesh->heights, vtSpace_Leave(&placed->own, p));
     }
     // The winding number, by the triangles' solid angles (van Oosterom & Strackee 1983).
     double sum = 0.0;
     for (uint32_t i = 0; i < mesh->indexCount; i += 3) {
-        const vtVec3 a = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i]), p);
-        const vtVec3 b = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 1]), p);
-        const vtVec3 c = vtSub(vtMakeVec3(mesh->positions + 3 * (size_t)mesh->indices[i + 2]), p);
+        const vtVec3 a = vtSub(ownVertex(placed, i), p);
+        const vtVec3 b = vtSub(ownVertex(placed, i + 1), p);
+        const vtVec3 c = vtSub(ownVertex(placed, i + 2), p);
         const float la = vtLength(a), lb = vtLength(b), lc = vtLength(c);
         const float across = la * lb * lc + vtDot(a, b) * lc + vtDot(b, c) * la + vtDot(c, a) * lb;
         sum += 2.0 * (double)atan2f(vtDot(a, vtCross(b, c)), across);

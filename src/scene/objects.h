@@ -1,6 +1,8 @@
 // Objects as paths meet them: in the order that decides where they overlap.
 #pragma once
 
+#include "base/space.h"
+#include "mesh/mesh_triangle.h"
 #include "vitrine.h"
 
 /// A scene of one object of glass of index 1.5 that borrows its mesh: it lives as long as that, and is not to
@@ -34,6 +36,7 @@ typedef struct vtPlacedObject {
     bool plain;                 ///< its material is (scene/material.h), and there are no lights
     bool
         thin; ///< glass: a thin wall, by its material or because it has no volume and lies inside other glass
+    vtSpace own; ///< of the mesh's coordinates, that toWorld is from and toObject to
     vtTransform toWorld, toObject;
     vtVec3 low, high;  ///< box in the world
     vtVec3 absorption; ///< glass: exp(-absorption * distance) is left of light, per world unit
@@ -65,9 +68,15 @@ vtResult vtPlaceShapes(const vtScene* scene, vtPlacedObject** placed, uint32_t* 
 /// (its index of refraction). `name`: the sentence's subject.
 vtResult vtCheckObject(const vtObject* object, const vtMaterial* material, const char* name, vtError* error);
 
-/// Moves the object's coordinates to the mesh's point `own` and the world's to `world`, at little loss
-/// however far these are from the origin.
-void vtPlacedObject_Recentre(vtPlacedObject* placed, vtVec3 own, vtVec3 world);
+/// The space of the world in which objects are drawn and traced: about all of them.
+vtSpace vtSpaceOfObjects(const vtPlacedObject* placed, uint32_t count);
+
+/// Takes the object, as it was placed, into spaces of the mesh's coordinates and of the world's, at little
+/// loss however far from the origin these are.
+void vtPlacedObject_Enter(vtPlacedObject* placed, const vtSpace* own, const vtSpace* world);
+
+/// A light in a space: what arrives from it stays the same.
+vtLight vtLight_Enter(const vtLight* light, const vtSpace* space);
 
 /// Whether an object made of the mesh is opaque, or else one that is not.
 bool vtScene_Uses(const vtScene* scene, uint32_t mesh, bool opaque);
@@ -119,4 +128,13 @@ static inline vtVec3 vtTransformNormal(const vtTransform* toObject, vtVec3 n)
     const float* z = toObject->rows[2];
     return (vtVec3){x[0] * n.x + y[0] * n.y + z[0] * n.z, x[1] * n.x + y[1] * n.y + z[1] * n.z,
                     x[2] * n.x + y[2] * n.y + z[2] * n.z};
+}
+
+/// Of a triangle (mesh/mesh_triangle.h), in the object's own space.
+static inline void vtPlacedObject_Corners(const vtPlacedObject* placed, uint32_t triangle, vtVec3 corners[3])
+{
+    vtMesh_Corners(placed->mesh, triangle, corners);
+    for (int i = 0; i < 3; ++i) {
+        corners[i] = vtSpace_Enter(&placed->own, corners[i]);
+    }
 }

@@ -28,6 +28,10 @@ static const ShapeRow shapeTable[] = {
     {"tumbler", VT_ABOUT("hollow drinking glass with a thick base"), vtBuildTumbler, 0},
     {"water", VT_ABOUT("what fills the tumbler to 60 %, its sides inside the tumbler's walls"), vtBuildWater,
      0},
+#if VT_WITH_BACKDROP
+    {"panel", VT_ABOUT("pane with rounded corners and edges, see the keys width to thickness"), vtBuildPanel,
+     0},
+#endif
 };
 enum { shapeCount = sizeof shapeTable / sizeof shapeTable[0] };
 
@@ -64,26 +68,42 @@ static vtResult failUnknown(const char* name, vtError* error)
     return vtFail(error, vt_errorArgument, "shape '%.100s' is unknown; the shapes are %s", name, names);
 }
 
-static vtResult createShape(const ShapeRow* row, float fineness, vtMesh* mesh, vtError* error)
+/// The mesh of a shape that was built, which goes with it; not `built`: memory is short.
+static vtResult finishShape(vtShapeData* shape, bool built, const char* name, vtMesh* mesh, vtError* error)
 {
-    const char* name = row->name;
-    vtShapeData shape = {.fineness = fineness};
     vtResult result;
-    if (row->build(&shape)) {
+    if (built) {
         vtMeshDef def = {
-            .positions = shape.positions,
-            .normals = shape.normals,
-            .indices = shape.indices,
-            .vertexCount = shape.vertexCount,
-            .indexCount = shape.indexCount,
-            .texcoords = shape.texcoords,
+            .positions = shape->positions,
+            .normals = shape->normals,
+            .indices = shape->indices,
+            .vertexCount = shape->vertexCount,
+            .indexCount = shape->indexCount,
+            .texcoords = shape->texcoords,
         };
         result = vtCreateMesh(&def, name, mesh, error);
     } else {
         result = vtFail(error, vt_errorMemory, "shape '%s': out of memory; close other programs", name);
     }
-    vtShape_Free(&shape);
+    vtShape_Free(shape);
     return result;
+}
+
+static vtResult createShape(const ShapeRow* row, float fineness, vtMesh* mesh, vtError* error)
+{
+    vtShapeData shape = {.fineness = fineness};
+    return finishShape(&shape, row->build(&shape), row->name, mesh, error);
+}
+
+vtResult vtCreatePanel(const vtPanelDef* def, vtMesh* mesh, vtError* error)
+{
+    if (mesh == NULL || def == NULL) {
+        return vtFailMissing(error, "vtCreatePanel", mesh == NULL ? "mesh" : "def");
+    }
+    *mesh = (vtMesh){0};
+    vtShapeData shape = {0};
+    const vtResult result = vtCheckPanel(def, error);
+    return result == vt_ok ? finishShape(&shape, vtBuildPanelOf(&shape, def), "panel", mesh, error) : result;
 }
 
 vtResult vtCreateShape(const char* name, vtMesh* mesh, vtError* error)

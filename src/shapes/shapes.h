@@ -9,6 +9,11 @@ vtResult vtCreateFineShape(const char* name, uint32_t triangles, vtMesh* mesh, v
 /// Whether it can be built so.
 bool vtHasFineShape(const char* name);
 
+/// Fails with a sentence that names the number and its range.
+vtResult vtCheckPanel(const vtPanelDef* def, vtError* error);
+/// Of a definition that was checked; false where memory is short.
+bool vtBuildPanelOf(vtShapeData* shape, const vtPanelDef* def);
+
 // Each builds one shape; false where memory is short.
 bool vtBuildSphere(vtShapeData* shape);
 bool vtBuildTorus(vtShapeData* shape);
@@ -19,4 +24,5 @@ bool vtBuildDiamond(vtShapeData* shape);
 bool vtBuildCube(vtShapeData* shape);
 bool vtBuildPlane(vtShapeData* shape);
 bool vtBuildTumbler(vtShapeData* shape);
+bool vtBuildPanel(vtShapeData* shape);
 bool vtBuildWater(vtShapeData* shape); ///< in the tumbler's coordinates

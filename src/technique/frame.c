@@ -1,6 +1,7 @@
 // What a frame's settings come to with its technique.
 #include "base/error.h"
 #include "base/math.h"
+#include "base/space.h"
 #include "scene/camera.h"
 #include "technique/settings.h"
 #include "technique/technique.h"
@@ -35,13 +36,24 @@ static bool isFinite(vtVec3 v)
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
+static bool isNear(vtVec3 v)
+{
+    return fmaxf(fabsf(v.x), fmaxf(fabsf(v.y), fabsf(v.z))) <= VT_FARTHEST_EYE;
+}
+
 static vtResult checkView(const vtView* view, vtError* error)
 {
     if (!isFinite(view->eye) || !isFinite(view->target)) {
         return vtFail(error, vt_errorArgument, "the camera's position and target must be finite numbers");
     }
-    float distance = vtLength(vtSub(view->target, view->eye));
-    if (!(distance > 0.0f) || !isfinite(distance)) {
+    if (!isNear(view->eye) || !isNear(view->target)) {
+        const vtVec3 far = isNear(view->eye) ? view->target : view->eye;
+        return vtFail(error, vt_errorArgument,
+                      "the camera's %s is at (%g, %g, %g); its coordinates must be from -%g to %g",
+                      isNear(view->eye) ? "target" : "position", (double)far.x, (double)far.y, (double)far.z,
+                      (double)VT_FARTHEST_EYE, (double)VT_FARTHEST_EYE);
+    }
+    if (view->eye.x == view->target.x && view->eye.y == view->target.y && view->eye.z == view->target.z) {
         return vtFail(error, vt_errorArgument,
                       "the camera stands on its target (%g, %g, %g); move one of them", (double)view->eye.x,
                       (double)view->eye.y, (double)view->eye.z);

@@ -16,7 +16,7 @@ typedef enum vtLayerSpace {
 } vtLayerSpace;
 
 /// Number of layers as the frame says.
-#define VT_LAYERS_OF_FRAME -1
+#define VT_LAYERS_OF_FRAME (-1)
 
 /// Programs that follow paths.
 typedef enum vtVariant {

@@ -111,9 +111,20 @@ async function traceKnot(side = 128) {
   return { positions: [...position.array], indices: [...geometry.index.array], seen: [...numbers].map((value) => 2 * value - 1), eye: camera.position.toArray() };
 }
 
+/** Cameras that look otherwise than straight and in perspective. */
+const cameras = {
+  straight: () => new THREE.PerspectiveCamera(40, 1, 0.1, 60),
+  orthographic: () => new THREE.OrthographicCamera(-1.3, 1.3, 1.3, -1.3, 0.1, 60),
+  'off its axis': () => {
+    const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 60);
+    camera.setViewOffset(300, 300, 110, 90, 128, 128);
+    return camera;
+  },
+};
+
 /** Directions in which light leaves a ball, beside the closed form; for each turn of the surroundings. */
-async function measureBall(turns, side = 128) {
-  const renderer = makeRenderer({ side }), scene = new THREE.Scene(), camera = makeCamera();
+async function measureBall(turns, seenBy = 'straight', side = 128) {
+  const renderer = makeRenderer({ side }), scene = new THREE.Scene(), camera = cameras[seenBy]();
   camera.position.set(1, 0.5, 3.2);
   camera.lookAt(0, 0, 0);
   scene.environment = scene.background = directionsTexture();
@@ -133,9 +144,10 @@ async function measureBall(turns, side = 128) {
     renderer.readRenderTargetPixels(target, 0, 0, side, side, numbers);
     const answer = { pixels: 0, off: 0, besides: 0, besidesOff: 0, error: renderer.getContext().getError() };
     for (let i = 0; i < side * side; ++i) {
-      const d = new THREE.Vector3(((i % side) + 0.5) / side * 2 - 1, (Math.floor(i / side) + 0.5) / side * 2 - 1, 0.5).unproject(camera).sub(camera.position).normalize();
+      const [near, far] = [-1, 0.5].map((z) => new THREE.Vector3(((i % side) + 0.5) / side * 2 - 1, (Math.floor(i / side) + 0.5) / side * 2 - 1, z).unproject(camera));
+      const d = far.sub(near).normalize();
       const seen = new THREE.Vector3(...[0, 1, 2].map((part) => 2 * numbers[4 * i + part] - 1)).normalize().applyMatrix4(back);
-      const out = throughBall(camera.position, d);
+      const out = throughBall(near, d);
       if (out === null) continue;
       const isOff = Number(!(seen.angleTo(out ?? d) < Math.PI / 180));
       answer[out ? 'pixels' : 'besides'] += 1;
@@ -146,6 +158,33 @@ async function measureBall(turns, side = 128) {
   renderer.setRenderTarget(null);
   glass.dispose();
   return answers;
+}
+
+/** A picture of two rows: RGB below, RGB above. */
+function rowsTexture(below, above) {
+  const texture = new THREE.DataTexture(Uint8Array.from([...below, 255, ...above, 255]), 1, 2);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** What a pane with maps shows of a bright wall whose edge is behind its middle: the red and the steepest step in its lower and in its upper half. */
+async function measureMaps(maps, more = {}) {
+  const renderer = makeRenderer({ side: 96 }), scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(40, 1, 0.1, 60);
+  camera.position.z = 4;
+  scene.background = new THREE.Color(0x000000);
+  const wall = new THREE.Mesh(new THREE.PlaneGeometry(4, 8), new THREE.MeshBasicMaterial({ color: 0xffffff }));
+  wall.position.set(2, 0, -2);
+  scene.add(wall, new THREE.Mesh(new THREE.BoxGeometry(2.4, 2.4, 0.1), glassMaterial({ ior: 1.3, ...maps, ...more })));
+  const glass = await createGlass(renderer);
+  await glass.compileAsync(scene, camera);
+  const pixels = pixelsOf(renderer), { notes } = glass;
+  const halves = [30, 66].map((y) => {
+    const row = [...Array(96).keys()].map((x) => pixels[4 * (96 * y + x)]);
+    return { bright: row[62], steepest: Math.max(...row.slice(31, 65).map((value, i) => Math.abs(value - row[i + 30]))), edge: row.findIndex((value) => value > 128) };
+  });
+  glass.dispose();
+  renderer.dispose();
+  return { halves, notes };
 }
 
 function makeSkinned(material) {
@@ -200,5 +239,5 @@ const movingMeshes = {
   },
 };
 
-Object.assign(window, { THREE, RoomEnvironment, EffectComposer, OutputPass, Pass, createGlass, makeScene, makeRenderer, makeCamera, glassMaterial, pixelsOf, measureBall, traceKnot, movingMeshes });
+Object.assign(window, { THREE, RoomEnvironment, EffectComposer, OutputPass, Pass, createGlass, makeScene, makeRenderer, makeCamera, glassMaterial, pixelsOf, measureBall, measureMaps, rowsTexture, traceKnot, movingMeshes });
 window.isReady = true;

@@ -277,6 +277,16 @@ EMSCRIPTEN_KEEPALIVE int vtViewer_Tick(vtViewer* viewer)
     return 1;
 }
 
+/// Has the GPU drawn what vtViewer_Tick asked of it? Asked once it is done, so that it need not be waited
+/// for. Where it has not, nothing is drawn until something changes.
+EMSCRIPTEN_KEEPALIVE const char* vtViewer_Check(vtViewer* viewer)
+{
+    const vtResult result =
+        vtRenderer_CheckDrawn(viewer->renderer, "drawing; a smaller picture may fit", &viewer->error);
+    viewer->sample = result == vt_ok ? viewer->sample : VT_MAX_SAMPLES;
+    return sentence(viewer, result);
+}
+
 /// The present view and settings at that size, of at least 16 samples (or all, if those are fewer):
 /// 4 * width * height bytes, top row first, valid until the next call; NULL on failure, see vtViewer_Error.
 EMSCRIPTEN_KEEPALIVE const uint8_t* vtViewer_Image(vtViewer* viewer, int width, int height)

@@ -108,10 +108,26 @@ export function buildControls(store, page) {
       target.value = ''; // the same file can be chosen again
     });
   }
+  showMoreOf(element('gallery'));
   element('fold').addEventListener('click', () => fold(element('fold').getAttribute('aria-expanded') === 'true'));
   element('controls').addEventListener('submit', (event) => event.preventDefault());
   store.subscribe((state) => show(state, page.files, chooseModel, store));
   document.body.classList.add('ready');
+}
+
+/** Buttons at both ends of a strip that is wider than its place, each while there is more on its side. */
+function showMoreOf(strip) {
+  const [left, right] = ['left', 'right'].map((side) => strip.parentElement.querySelector(`.onward.${side}`));
+  const update = () => {
+    left.hidden = strip.scrollLeft < 2;
+    right.hidden = strip.scrollLeft + strip.clientWidth > strip.scrollWidth - 2;
+  };
+  for (const [button, step] of [[left, -0.7], [right, 0.7]]) {
+    button.addEventListener('click', () => strip.scrollBy({ left: step * strip.clientWidth }));
+  }
+  strip.addEventListener('scroll', update);
+  new ResizeObserver(update).observe(strip);
+  new MutationObserver(update).observe(strip, { childList: true });
 }
 
 /** A slider for each object of glass, where there are several. */
@@ -233,8 +249,7 @@ function show(state, files, chooseModel, store) {
     element(id).disabled = !isUsed;
     element(id).parentElement.classList.toggle('unused', !isUsed);
   }
-  element('layer').disabled = !isLayer(state.output);
-  element('layer').parentElement.classList.toggle('unused', !isLayer(state.output));
+  element('layer').parentElement.hidden = !isLayer(state.output);
   const legend = legends[state.output] ?? [];
   element('legend').hidden = legend.length === 0;
   element('legend').replaceChildren(...legend.map(([className, textContent]) => create('span', { className, textContent })));

@@ -13,11 +13,11 @@ const files = new Map(); // names of the visitor's own files, by their object UR
 const before = new Map(); // what an object URL took the place of: shown again should the file be bad
 let noteTimer = 0;
 
-/** A sentence that says what was done, and goes away. */
-function note(text) {
+/** A sentence that says what was done, and goes away, or what is being done, and stays. @param {number} stays milliseconds */
+function note(text, stays = 4000) {
   element('note').textContent = text;
   clearTimeout(noteTimer);
-  noteTimer = setTimeout(() => (element('note').textContent = ''), 4000);
+  if (stays < Infinity) noteTimer = setTimeout(() => (element('note').textContent = ''), stays);
 }
 
 function showError(text) {
@@ -80,20 +80,17 @@ function targetText() {
 }
 
 /**
- * The distance at which the whole object is seen between gallery and panel, in % of the one that fills the stage.
+ * The distance at which the whole object is seen with some room around it, in % of the one that fills the stage.
  * @param {number} fov degrees
  */
 function roomyDistance(fov) {
   const { width, height } = element('stage').getBoundingClientRect();
-  const style = getComputedStyle(element('stage'));
-  const inset = parseFloat(style.left) || 0, rise = parseFloat(style.top) || 0; // negative: beyond the window
   const half = Math.tan((fov * Math.PI) / 360);
-  const across = half * ((width + 2 * inset) / height);
-  const up = half * (rise < 0 ? (height - 200) / height : 0.86);
-  const widest = half * Math.min(1.35, width / height); // of the objects worth a thought
-  const share = Math.min(1, up / half, across / widest);
+  const up = 0.86;
+  const widest = Math.min(1.35, width / height); // of the objects worth a thought
+  const share = Math.min(up, width / height / widest);
   const sine = (tangent) => Math.sin(Math.atan(tangent));
-  return Math.round((100 * sine(half)) / sine(Math.max(0.1, share) * half));
+  return Math.round((100 * sine(half)) / sine(share * half));
 }
 
 /** As the element takes it: the page's own idea of an automatic distance. */
@@ -153,6 +150,7 @@ function resetView() {
 }
 
 left.addEventListener('camera-change', ({ detail }) => {
+  frames = 0;
   path.cameraChanged();
   if (detail?.source === 'user-interaction') {
     [cameraOrbit, cameraTarget, placed] = [orbitText(), targetText(), ''];
@@ -268,10 +266,32 @@ function listenToDrops() {
   });
 }
 
+const samplesSaved = 16; // the element draws those that are missing at once, and the page would stand still
+let frames = 0; // with nothing changed between them: samples of one picture
+left.addEventListener('frame', () => ++frames);
+
+/** Until the picture at rest has its samples; not where none come. */
+async function awaitSamples() {
+  const wanted = Math.min(samplesSaved, left.samples);
+  const patience = 5000; // milliseconds for one
+  const isComing = () => frames < wanted && store.state.output === 'picture' && !store.state.rotate && !document.hidden;
+  for (let last = frames, since = performance.now(); isComing() && performance.now() - since < patience;) {
+    element('progress').value = frames / wanted;
+    await new Promise((done) => setTimeout(done, 50));
+    if (frames !== last) [last, since] = [frames, performance.now()];
+  }
+}
+
 async function savePicture() {
-  note('Drawing the picture…');
-  await new Promise((done) => setTimeout(done, 50)); // the words are seen
+  const progress = element('progress'), button = element('save');
+  note('Drawing the picture…', Infinity);
+  progress.setAttribute('aria-label', 'Saving');
+  progress.classList.remove('done');
+  button.disabled = true;
   try {
+    await awaitSamples();
+    progress.value = 1;
+    await new Promise((done) => setTimeout(done, 50)); // it is seen
     const link = document.createElement('a');
     link.href = URL.createObjectURL(await left.toBlob());
     const { model, relief } = store.state, shown = model === 'relief' ? relief : model;
@@ -280,8 +300,12 @@ async function savePicture() {
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     note(`Saved ${link.download}`);
   } catch (reason) {
+    note('');
     showError(`The picture cannot be saved: ${reason.message}`);
   }
+  progress.setAttribute('aria-label', 'Loading');
+  progress.classList.add('done');
+  button.disabled = false;
 }
 
 // ------------------------------------------------------------------------------------------------- address
@@ -322,6 +346,7 @@ buildControls(store, {
   chooseReference: () => store.set({ ...reference.scene, technique: techniqueFor(reference.scene.model, store.state.technique), compare: 'reference' }),
 });
 store.subscribe((state, changed) => {
+  frames = 0;
   showLeft(state);
   showComparison(state);
   if (changed.has('technique')) showScale();

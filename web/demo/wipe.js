@@ -14,7 +14,7 @@ export class Wipe {
     const { divider, store, stage } = parts;
     const set = (value) => store.set({ wipe: Math.round(10 * Math.min(100, Math.max(0, value))) / 10 });
     const moveTo = (event) => {
-      const { left, right } = this.#visible();
+      const { left, right } = stage.getBoundingClientRect();
       set((100 * (event.clientX - left)) / (right - left));
     };
     divider.addEventListener('pointerdown', (event) => {
@@ -37,13 +37,6 @@ export class Wipe {
       divider.setAttribute('aria-valuenow', Math.round(wipe));
       divider.setAttribute('aria-valuetext', `${Math.round(wipe)} % of the width shows the left picture`);
     });
-  }
-
-  /** The part of the stage that no panel covers: what the divider crosses. */
-  #visible() {
-    const { stage } = this.#parts;
-    const { left, right } = stage.getBoundingClientRect(); // as far beyond the window as the panel reaches into it
-    return { left: 0, right: right + left };
   }
 
   #show(isShown) {

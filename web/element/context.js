@@ -12,6 +12,7 @@ const settings = {
   stencil: false,
   preserveDrawingBuffer: false,
   powerPreference: 'high-performance',
+  enableExtensionsByDefault: false, // Emscripten's; asking for all of them holds the page up
 };
 
 /**

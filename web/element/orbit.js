@@ -4,10 +4,12 @@ import { View } from './view.js';
 const lowestPhi = Math.PI / 90;
 const nearest = 0.25, farthest = 4; // of the distance that shows the whole object
 const lengths = { m: 1, cm: 0.01, mm: 0.001 };
+const least = 1e-9, most = 1e9; // of what the core's floats can still compute with, as --object has them
 
 function quantity(text, units) {
   const [, digits, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)([a-z%]*)$/i.exec(text) ?? [];
-  return digits !== undefined && Object.hasOwn(units, unit) ? Number(digits) * units[unit] : NaN;
+  const value = digits !== undefined && Object.hasOwn(units, unit) ? Number(digits) * units[unit] : NaN;
+  return Math.abs(value) <= most ? value : NaN;
 }
 
 export const angle = (text) => quantity(text, { deg: Math.PI / 180, rad: 1 });
@@ -30,7 +32,7 @@ export function parseOrbit(text, name = 'camera-orbit') {
     phi: phi === 'auto' ? null : angle(phi),
     radius: radius === 'auto' ? null : Number.isNaN(percent) ? { value: quantity(radius, lengths), unit: 'm' } : { value: percent, unit: '%' },
   };
-  if ([orbit.theta, orbit.phi, orbit.radius?.value].some(Number.isNaN) || orbit.radius?.value <= 0) {
+  if ([orbit.theta, orbit.phi, orbit.radius?.value].some(Number.isNaN) || orbit.radius?.value < least) {
     throw new Error(`${name} is '${text}'; it must be like '30deg 75deg 100%': deg or rad twice, then m, cm, mm or % above 0, or auto`);
   }
   return orbit;

@@ -10,6 +10,7 @@ import { dprOf, sizeOf } from './pixels.js';
 import { Quality, levels } from './quality.js';
 
 const slice = 12; // milliseconds of building a scene at once
+const kinds = ['environment', 'background', 'model']; // in the order in which a viewer gets them
 const stillAfter = 250; // milliseconds without motion until the full frame
 
 /**
@@ -51,6 +52,7 @@ export class Stage {
   #coming = null; // the scene whose pictures the browser decodes, or that is being built
   #goOn = null; // with building it, for some milliseconds
   #filled = false; // the viewer has the scene
+  #unfilled = []; // kinds of sources that a new viewer is still to be given
   #visible = false;
   #spin = 0;
   #motion = null;
@@ -68,6 +70,7 @@ export class Stage {
   #refused = null; // the technique that the scene is too large for
   #refusal = ''; // what is wrong with the last frame, a sentence
   #drawn = {}; // detail of the last render-scale
+  #isUnchecked = false; // the GPU has not been asked whether it has drawn such a frame
 
   /** @param {HTMLElement} host holds a canvas @param {Told} told */
   constructor(host, told) {
@@ -122,7 +125,7 @@ export class Stage {
   /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source|import('./loading.js').Scene} source */
   show(kind, source) {
     if (kind === 'model') this.#coming = null;
-    if (this.#viewer === null || this.#viewer.isLost || (isAnimated(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
+    if (this.#viewer === null || this.#viewer.isLost || this.#unfilled.includes(kind) || (isAnimated(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
     else this.#upload(kind, source);
   }
 
@@ -217,7 +220,10 @@ export class Stage {
   /** In a viewer, which is there again where it was given back. */
   get #hasScene() {
     if (this.#viewer === null) this.#open();
-    if (this.#viewer !== null && !this.#viewer.isLost) this.#goOn?.(Infinity);
+    if (this.#viewer !== null && !this.#viewer.isLost) {
+      while (this.#unfilled.length > 0) this.#fillNext();
+      this.#goOn?.(Infinity);
+    }
     return this.#filled && this.#viewer !== null && !this.#viewer.isLost;
   }
 
@@ -243,12 +249,7 @@ export class Stage {
           this.#told.failed(problem);
           return;
         }
-        const viewer = this.#viewer;
-        ownTask().then(() => {
-          if (this.#viewer !== viewer || viewer.isLost) return;
-          this.#fill();
-          this.#told.restored();
-        });
+        this.#fill();
       },
       crowded: () => {
         if (!this.#visible) this.close();
@@ -256,14 +257,17 @@ export class Stage {
       },
     };
     try {
-      this.#viewer = new Viewer(this.#core, told);
+      try {
+        this.#viewer = new Viewer(this.#core, told);
+      } catch { // the context may have been lost just then: another one is made
+        this.#viewer = new Viewer(this.#core, told);
+      }
     } catch (reason) {
       this.#core = null; // not tried again
       this.#told.unsupported(reason.message);
       return;
     }
     this.#fill();
-    this.#told.restored(); // in case the one before was lost
   }
 
   /** The viewer goes: what it does not show yet is for the next one. */
@@ -272,18 +276,28 @@ export class Stage {
     this.#coming = this.#goOn = null;
   }
 
-  /** Gives a new viewer what was shown, and what came in the meantime. */
-  #fill() {
+  /** Gives a new viewer what was shown, and what came in the meantime, each in a task of its own. */
+  async #fill() {
+    const viewer = this.#viewer;
     this.#framedFor = '';
     this.#drawn = {};
     this.#filled = false;
-    const { scene } = this;
-    const pending = this.#pending;
-    this.#pending = {};
-    for (const kind of ['environment', 'background', 'model']) {
-      if (scene[kind] !== null) this.#upload(kind, scene[kind], false);
-      if (pending[kind] !== undefined) this.show(kind, pending[kind]);
+    this.#unfilled = [...kinds];
+    while (this.#unfilled.length > 0) {
+      await ownTask();
+      if (this.#viewer !== viewer || viewer.isLost) return;
+      this.#fillNext();
     }
+    this.#told.restored(); // in case the one before was lost
+  }
+
+  #fillNext() {
+    const kind = this.#unfilled.shift();
+    if (kind === undefined) return;
+    const { [kind]: came, ...pending } = this.#pending;
+    this.#pending = pending;
+    if (this.scene[kind] !== null) this.#upload(kind, this.scene[kind], false);
+    if (came !== undefined) this.show(kind, came);
   }
 
   #upload(kind, source, isNew = true) {
@@ -328,10 +342,15 @@ export class Stage {
       }
     };
     this.#goOn = goOn;
-    goOn(slice);
+    setTimeout(goOn, 0, slice);
   }
 
   #shown(kind, source, isNew, problem) {
+    this.#isUnchecked = true;
+    if (problem && this.#viewer.gl.isContextLost()) { // which is about to be told: it waits for the next one
+      if (isNew) this.#pending[kind] = source;
+      return;
+    }
     if (!problem) this.scene[kind] = source;
     if (!problem && kind === 'model') this.#filled = true;
     else if (kind === 'model' && !this.#filled && isNew && this.scene.model !== null) this.#upload(kind, this.scene.model, false); // the one before stays
@@ -456,6 +475,10 @@ export class Stage {
     }
     if (this.#lacks) this.#told.warned('context', '');
     this.#lacks = false;
+    if (drawn < 0 && this.#viewer.gl.isContextLost()) { // which is about to be told
+      this.#viewer.leave();
+      return;
+    }
     if (drawn < 0) problem ||= this.#viewer.problem();
     if (isNew || problem) this.#tellRefusal(problem);
     if (isNew) this.#tellScale(width, height);
@@ -501,6 +524,7 @@ export class Stage {
     const size = { pixelWidth, pixelHeight, preset, layers, steps, maxEvents, branches, wavelengths };
     if (Object.keys(size).every((key) => this.#drawn[key] === size[key])) return;
     this.#drawn = size;
+    this.#isUnchecked = true;
     const { reason, scale } = this.quality;
     const dpr = dprOf(this.#host), minimumDpr = dpr * levels.at(-1).scale;
     const detail = { reportedDpr: window.devicePixelRatio, renderedDpr: dpr * scale, minimumDpr, ...size, reason };
@@ -535,6 +559,14 @@ export class Stage {
       }
       gl.deleteSync(fence);
       this.#busy = null;
+      const problem = this.#isUnchecked ? this.#viewer.attempt('Check') : '';
+      if (problem) {
+        this.#isRefining = false;
+        this.#viewer.leave();
+        if (!gl.isContextLost()) this.#tellRefusal(problem);
+        return;
+      }
+      this.#isUnchecked = false;
       this.#viewer.showOn(this.#host.querySelector('canvas'));
       this.#viewer.leave();
       const milliseconds = performance.now() - start;

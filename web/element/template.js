@@ -20,32 +20,36 @@ canvas { display: block; pointer-events: none; }
 [hidden] { display: none !important; }
 `;
 
-const html = `
-<div class="view" role="img"><canvas part="canvas" aria-hidden="true"></canvas></div>
-<div class="unseen sliders" role="group" aria-label="View" hidden>
-  <input type="range" class="turn" aria-label="Turn" min="-180" max="180" step="5" tabindex="-1">
-  <input type="range" class="tilt" aria-label="Tilt" min="-85" max="85" step="5" tabindex="-1">
-  <input type="range" class="distance" aria-label="Distance" min="25" max="400" step="5" tabindex="-1">
-</div>
-<div class="poster" part="poster"><slot name="poster"><img alt="" hidden></slot></div>
-<slot name="progress-bar"><div class="bar" part="progress-bar" role="progressbar" aria-label="Loading" aria-valuemin="0" aria-valuemax="100" hidden><div></div></div></slot>
-<p class="unseen status" role="status"></p>
-<p class="message" part="message" role="alert" hidden></p>
-`;
+/** An element with attributes and what is in it; no HTML is read, so that pages with Trusted Types need no policy for it. */
+function make(name, attributes = {}, ...inside) {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  element.append(...inside);
+  return element;
+}
 
-let sheet, template;
+const slider = (name, label, min, max) => make('input', { type: 'range', class: name, 'aria-label': label, min, max, step: 5, tabindex: -1 });
+
+const inside = () => [
+  make('div', { class: 'view', role: 'img' }, make('canvas', { part: 'canvas', 'aria-hidden': true })),
+  make('div', { class: 'unseen sliders', role: 'group', 'aria-label': 'View', hidden: '' }, slider('turn', 'Turn', -180, 180), slider('tilt', 'Tilt', -85, 85), slider('distance', 'Distance', 25, 400)),
+  make('div', { class: 'poster', part: 'poster' }, make('slot', { name: 'poster' }, make('img', { alt: '', hidden: '' }))),
+  make('slot', { name: 'progress-bar' }, make('div', { class: 'bar', part: 'progress-bar', role: 'progressbar', 'aria-label': 'Loading', 'aria-valuemin': 0, 'aria-valuemax': 100, hidden: '' }, make('div'))),
+  make('p', { class: 'unseen status', role: 'status' }),
+  make('p', { class: 'message', part: 'message', role: 'alert', hidden: '' }),
+];
+
+let sheet;
 
 /** Fills the element's shadow root; returns its parts by name. */
 export function createShadow(host) {
-  if (template === undefined) {
-    template = document.createElement('template');
-    template.innerHTML = html;
+  if (sheet === undefined) {
     sheet = new CSSStyleSheet();
     sheet.replaceSync(css);
   }
   const root = host.attachShadow({ mode: 'open' });
   root.adoptedStyleSheets = [sheet];
-  root.append(template.content.cloneNode(true));
+  root.append(...inside());
   const names = ['view', 'sliders', 'turn', 'tilt', 'distance', 'poster', 'bar', 'status', 'message'];
   return Object.fromEntries(names.map((name) => [name, root.querySelector(`.${name}`)]));
 }

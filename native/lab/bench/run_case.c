@@ -85,7 +85,9 @@ vtResult vtBench_RunCase(const vtOptions* options, vtSession* session, int copie
     measured->height = options->frame.height;
     const bool isRelief = bench->sweep == vt_sweepRelief;
     char times[24] = "", size[32];
-    snprintf(times, sizeof times, copies > 1 ? "%d times " : "", copies);
+    if (copies > 1) {
+        snprintf(times, sizeof times, "%d times ", copies);
+    }
     snprintf(size, sizeof size, isRelief ? "%d samples a side" : "%d triangles",
              isRelief ? options->reliefSize : measured->triangles);
     fprintf(stderr, "vitrine: bench: %s%s, %s, %d x %d\n", times, bench->model, size, measured->width,

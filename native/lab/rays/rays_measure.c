@@ -72,7 +72,8 @@ static vtResult buildEmbree(Built* built, vtRayFigures* figures, vtError* error)
     rtcSetDeviceMemoryMonitorFunction(built->device, countBytes, built);
     built->triangles = rtcNewScene(built->device);
     const double start = vtProcessorTime();
-    const bool isFilled = vtFillScene(built->device, built->triangles, &built->mesh);
+    const vtSpace space = vtOuterSpace();
+    const bool isFilled = vtFillScene(built->device, built->triangles, &built->mesh, &space);
     figures->trianglesBuild = vtProcessorTime() - start;
     figures->embreeBytes = atomic_load(&built->bytes);
     figures->embreePeak = atomic_load(&built->peak);

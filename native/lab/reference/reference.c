@@ -20,7 +20,7 @@
 #include "shaders_es3/common/constants.h"
 
 /// Embree copies nothing by itself and reads beyond shared buffers, so it gets buffers of its own.
-bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh)
+bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh, const vtSpace* space)
 {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     const size_t vertexSize = 3 * sizeof(float), triangleSize = 3 * sizeof(uint32_t);
@@ -30,7 +30,10 @@ bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh)
                                                 triangleSize, mesh->indexCount / 3);
     const bool filled = positions != NULL && indices != NULL;
     if (filled) {
-        memcpy(positions, mesh->positions, vertexSize * mesh->vertexCount);
+        for (size_t i = 0; i < mesh->vertexCount; ++i) {
+            const vtVec3 p = vtSpace_Enter(space, vtMakeVec3(mesh->positions + 3 * i));
+            memcpy(positions + 3 * i, &p, vertexSize);
+        }
         memcpy(indices, mesh->indices, sizeof(uint32_t) * mesh->indexCount);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
@@ -43,14 +46,35 @@ bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh)
     return filled && rtcGetDeviceError(device) == RTC_ERROR_NONE;
 }
 
-/// Rounding errors go with the size of the coordinates: far from the origin they outgrow the object.
-static float measureExtent(const vtScene* scene)
+/// A relief is met by its heights, in the mesh's own coordinates.
+static vtSpace spaceOf(const vtMesh* mesh)
 {
-    vtVec3 low, high;
-    vtScene_Bounds(scene, &low, &high);
-    const float diagonal = vtLength(vtSub(high, low));
-    const float distance = fmaxf(vtLength(low), vtLength(high));
-    return fmaxf(fmaxf(diagonal, distance), 1e6f * FLT_MIN);
+    return mesh->indexCount == 0 ? vtOuterSpace() : vtSpaceOfBox(mesh->boundsMin, mesh->boundsMax);
+}
+
+/// Takes objects and lights into the reference's space. False where memory is short.
+static bool enterSpace(vtReference* reference)
+{
+    const vtScene* scene = reference->scene;
+    vtVec3 low = {FLT_MAX, FLT_MAX, FLT_MAX}, high = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    const bool any = reference->glassCount > 0;
+    reference->space = vtSpaceOfObjects(reference->objects, reference->objectCount);
+    for (uint32_t i = 0; i < reference->objectCount; ++i) {
+        vtPlacedObject* object = &reference->objects[i];
+        const vtSpace own = spaceOf(object->mesh);
+        vtPlacedObject_Enter(object, &own, &reference->space);
+        const vtVec3 a = object->low, b = object->high;
+        if (i < reference->glassCount || !any) {
+            low = (vtVec3){fminf(low.x, a.x), fminf(low.y, a.y), fminf(low.z, a.z)};
+            high = (vtVec3){fmaxf(high.x, b.x), fmaxf(high.y, b.y), fmaxf(high.z, b.z)};
+        }
+    }
+    reference->extent = fmaxf(vtLength(vtSub(high, low)), 1e6f * FLT_MIN);
+    reference->lights = calloc(scene->lightCount > 0 ? scene->lightCount : 1, sizeof *reference->lights);
+    for (uint32_t i = 0; i < scene->lightCount && reference->lights != NULL; ++i) {
+        reference->lights[i] = vtLight_Enter(&scene->lights[i], &reference->space);
+    }
+    return reference->lights != NULL;
 }
 
 /// Has some object of that mesh only one side?
@@ -83,7 +107,7 @@ static vtResult fillReference(vtReference* reference, vtError* error)
             const bool isFilled =
                 *mesh != NULL &&
                 (isRelief ? vtFillReliefScene(reference->device, *mesh, object->mesh->heights)
-                          : vtFillScene(reference->device, *mesh, object->mesh));
+                          : vtFillScene(reference->device, *mesh, object->mesh, &object->own));
             if (!isFilled) {
                 return vtFail(error, vt_errorMemory, "reference: Embree cannot hold a mesh of %u triangles",
                               object->mesh->indexCount / 3);
@@ -111,12 +135,10 @@ vtResult vtCreateReference(const vtScene* scene, vtReference** reference, vtErro
         vtFree(objects);
         return vtFail(error, vt_errorMemory, "reference: out of memory");
     }
-    **reference = (vtReference){.scene = scene,
-                                .objects = objects,
-                                .objectCount = scene->objectCount,
-                                .glassCount = glassCount,
-                                .extent = measureExtent(scene)};
-    result = fillReference(*reference, error);
+    **reference = (vtReference){
+        .scene = scene, .objects = objects, .objectCount = scene->objectCount, .glassCount = glassCount};
+    result = enterSpace(*reference) ? fillReference(*reference, error)
+                                    : vtFail(error, vt_errorMemory, "reference: out of memory");
     if (result != vt_ok) {
         vtDestroyReference(*reference);
         *reference = NULL;
@@ -142,6 +164,7 @@ void vtDestroyReference(vtReference* reference)
     }
     free(reference->meshes);
     vtFree(reference->objects);
+    free(reference->lights);
     free(reference);
 }
 

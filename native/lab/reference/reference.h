@@ -27,7 +27,9 @@ typedef struct vtReferenceDef {
     /// what refracts is followed; a path of less than 0.002 of the light by chance, with the light of those
     /// that are not. Concerns the radiance only.
     bool fresnel;
-    const vtGround* ground; ///< that the scene stands on; NULL: none. Concerns the radiance only
+    const vtGround* ground;         ///< that the scene stands on; NULL: none. Concerns the radiance only
+    const vtBackdrop* backdrop;     ///< that stands behind the scene; NULL: none. Concerns the radiance only
+    const vtImage* backdropPicture; ///< of it, decoded
     /// The radiance only, as fast as it goes: directions, events, states and reflections stay NULL. Needs an
     /// environment.
     bool onlyPicture;
@@ -48,7 +50,8 @@ typedef struct vtReferenceImage {
     float* radiance;      ///< 3 a pixel, linear, after exposure, mean over the samples; a lost path shows
                           ///< the environment in its last direction. NULL without an environment. Where
                           ///< frame->background is not the environment, of what covers the pixel alone
-    float* covered; ///< share of the samples that meet anything; NULL: the background is the environment
+    float* covered; ///< share of the pixel that things and the ground's shadow cover, mean over the samples;
+                    ///< NULL: the background is the environment
 } vtReferenceImage;
 
 /// Traces a picture. Fails with vt_errorArgument for a value out of range and with vt_errorMemory; then

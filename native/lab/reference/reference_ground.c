@@ -169,7 +169,7 @@ static vtGroundScene describeScene(const vtReference* reference)
     const vtVec3 most = {INFINITY, INFINITY, INFINITY}, least = {-INFINITY, -INFINITY, -INFINITY};
     const bool all = vtScene_HasLooks(reference->scene);
     vtGroundScene described = {
-        most, least, most, least, reference->scene->lights, reference->scene->lightCount};
+        reference->space, most, least, most, least, reference->lights, reference->scene->lightCount};
     for (uint32_t i = 0; i < reference->objectCount; ++i) {
         const vtPlacedObject* object = &reference->objects[i];
         extend(&described.low, &described.high, object);
@@ -183,7 +183,7 @@ static vtGroundScene describeScene(const vtReference* reference)
 static void cornersOf(const void* data, uint32_t object, uint32_t triangle, vtVec3 p[3])
 {
     const vtPlacedObject* placed = &((const vtReference*)data)->objects[object];
-    vtMesh_Corners(placed->mesh, triangle, p);
+    vtPlacedObject_Corners(placed, triangle, p);
     for (int k = 0; k < 3; ++k) {
         p[k] = vtTransformPoint(&placed->toWorld, p[k]);
     }

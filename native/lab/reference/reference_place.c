@@ -6,7 +6,7 @@
 vtVec3 vtTriangleNormal(const vtPlacedObject* object, const vtSurfaceHit* hit)
 {
     vtVec3 p[3];
-    vtMesh_Corners(object->mesh, hit->triangle, p);
+    vtPlacedObject_Corners(object, hit->triangle, p);
     const vtVec3 normal = vtCross(vtSub(p[1], p[0]), vtSub(p[2], p[0]));
     return vtNormalize(vtTransformNormal(&object->toObject, normal));
 }
@@ -14,7 +14,7 @@ vtVec3 vtTriangleNormal(const vtPlacedObject* object, const vtSurfaceHit* hit)
 vtVec3 vtSurfacePoint(const vtPlacedObject* object, const vtSurfaceHit* hit)
 {
     vtVec3 corners[3];
-    vtMesh_Corners(object->mesh, hit->triangle, corners);
+    vtPlacedObject_Corners(object, hit->triangle, corners);
     return vtTransformPoint(&object->toWorld, vtBlend(corners, hit->u, hit->v));
 }
 

@@ -19,7 +19,9 @@ struct vtReference {
     RTCScene boxes;          ///< of the objects, where there are many; else NULL
     vtPlacedObject* objects; ///< glass, then what is opaque
     uint32_t objectCount, glassCount;
-    float extent; ///< of the coordinates: what small distances are measured by
+    vtSpace space; ///< of the scene's world, that all here is in
+    vtLight* lights;
+    float extent; ///< what small distances are measured by
 };
 
 /// Of the extent. Of the objects that a path starts from, surfaces nearer than the first are never looked at,
@@ -98,8 +100,8 @@ typedef struct vtPathRules {
     const struct vtSpectrum* spectrum; ///< NULL: three paths at the channels' means in place of one
 } vtPathRules;
 
-/// Fills an empty Embree scene with a mesh's triangles, and one with a relief without any.
-bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh);
+/// Fills an empty Embree scene with a mesh's triangles, in a space, and one with a relief without any.
+bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh, const vtSpace* space);
 bool vtFillReliefScene(RTCDevice device, RTCScene scene, const vtHeightField* field);
 
 /// A bit an object.

@@ -35,7 +35,7 @@ void vtMakeSpectrum(vtSpectrum* spectrum)
     double below = 0.0; // of all weights before nanometre i
     for (int k = 0, i = 0; k < vt_spectrumSteps; ++k) {
         const double wanted = total * (k + 0.5) / vt_spectrumSteps;
-        while (below + weights[i] < wanted && i < count - 1) {
+        while (i < count - 1 && below + weights[i] < wanted) {
             below += weights[i++];
         }
         const double at = first + i + (wanted - below) / weights[i];

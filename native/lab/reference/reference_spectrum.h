@@ -18,7 +18,7 @@ static inline float vtDispersedIndex(float ior, float dispersion, float spread)
 }
 
 /// The mean spread of what red, green and blue of a picture see of white light.
-#define VT_SPREAD_RED -0.228f
+#define VT_SPREAD_RED (-0.228f)
 #define VT_SPREAD_GREEN 0.237f
 #define VT_SPREAD_BLUE 1.182f
 

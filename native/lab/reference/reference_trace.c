@@ -11,6 +11,7 @@
 #include "lab/reference/reference_scene.h"
 #include "lab/reference/reference_spectrum.h"
 #include "lab/reference/reference_threads.h"
+#include "light/backdrop.h"
 #include "scene/camera.h"
 #include "scene/material.h"
 
@@ -33,6 +34,7 @@ typedef struct Job {
     bool isRough;         ///< something is, or glass disperses
     vtGroundMap ground;   ///< its light NULL: there is none
     vtCausticMap caustics;
+    vtBackdropPlace backdrop; ///< where there is one
     int tileColumns, tileCount;
     atomic_int nextTile;
     atomic_bool failed; ///< memory is short
@@ -146,6 +148,11 @@ static vtVec3 lightOf(const Job* job, const vtReferencePath* path)
     vtVec3 light = path->light;
     if (path->state != VT_PATH_OPAQUE) { // all that comes from there is in it
         vtVec3 end = vtEnvironment_Sample(job->def->environment, path->direction);
+        if (job->def->backdrop != NULL) {
+            end = vtScale(vtBackdrop_Light(&job->backdrop, job->def->backdropPicture, path->origin,
+                                           path->direction, vtScale(end, job->exposure)),
+                          1.0f / job->exposure); // exposure is not for it
+        }
         if (job->ground.light != NULL) {
             end = vtGroundMap_Light(&job->ground, path->origin, path->direction, end);
         }
@@ -155,17 +162,32 @@ static vtVec3 lightOf(const Job* job, const vtReferencePath* path)
     return vtScale(light, job->exposure);
 }
 
+/// What the ground brings of a path from the eye that meets nothing, where another background lies behind.
+static vtVec3 overBackground(const Job* job, const vtReferencePath* path, float* covered)
+{
+    const vtVec3 beyond = vtEnvironment_Sample(job->def->environment, path->direction);
+    const vtVec3 light = vtGroundMap_Light(&job->ground, path->origin, path->direction, beyond);
+    return vtScale(vtGroundMap_Over(&job->ground, path->origin, path->direction, light, covered),
+                   job->exposure);
+}
+
 /// Adds a sample of each of the tile's pixels: the light of all paths that branch off from one at the eye.
 static void addSamples(const Job* job, const Tile* tile, const vtPathList* list)
 {
     vtVec3 sums[tileSide * tileSide] = {{0}};
-    bool isCovered[tileSide * tileSide] = {0};
+    float covered[tileSide * tileSide] = {0};
     for (uint32_t i = 0; i < list->count; ++i) {
         const vtReferencePath* path = &list->paths[i];
+        vtVec3 light = {0.0f, 0.0f, 0.0f};
+        float cover = 0.0f;
         if (job->image->covered == NULL || path->state != VT_PATH_BACKGROUND || path->passes > 0) {
-            sums[path->source] = vtAdd(sums[path->source], lightOf(job, path));
-            isCovered[path->source] = true;
+            light = lightOf(job, path);
+            cover = 1.0f;
+        } else if (job->ground.light != NULL) {
+            light = overBackground(job, path, &cover);
         }
+        sums[path->source] = vtAdd(sums[path->source], light);
+        covered[path->source] = fmaxf(covered[path->source], cover);
     }
     const float share = 1.0f / (float)job->samples;
     const vtVec3* sum = sums;
@@ -176,7 +198,7 @@ static void addSamples(const Job* job, const Tile* tile, const vtPathList* list)
             const size_t index = pixelIndex(job, column, row);
             float* pixel = job->image->radiance + 3 * index;
             if (job->image->covered != NULL) {
-                job->image->covered[index] += isCovered[sum - sums] ? share : 0.0f;
+                job->image->covered[index] += share * covered[sum - sums];
             }
             pixel[0] += sum->x * share;
             pixel[1] += sum->y * share;
@@ -244,20 +266,8 @@ static void runJob(Job* job)
 
 // ----------------------------------------------------------------------------------------------- picture
 
-/// Embree takes coordinates up to 1.8e18 and ends the program at larger ones.
-static const float farthest = 1e18f;
-
-static vtResult checkDef(const vtReference* reference, const vtReferenceDef* def, vtError* error)
+static vtResult checkDef(const vtReferenceDef* def, vtError* error)
 {
-    const vtVec3 eye = def->frame->view.eye;
-    const float reach = fmaxf(reference->extent, fmaxf(fabsf(eye.x), fmaxf(fabsf(eye.y), fabsf(eye.z))));
-    if (!(reach <= farthest)) {
-        return vtFail(
-            error, vt_errorGeometry,
-            "reference: scene and camera reach %g from the origin; ray tracing takes up to %g; scale "
-            "the scene down",
-            (double)reach, (double)farthest);
-    }
     if (def->samples < 0 || def->samples > VT_MAX_TRACED_SAMPLES) {
         return vtFail(error, vt_errorArgument, "samples is %d; it must be 0 to %d", def->samples,
                       VT_MAX_TRACED_SAMPLES);
@@ -266,7 +276,10 @@ static vtResult checkDef(const vtReference* reference, const vtReferenceDef* def
         return vtFail(error, vt_errorArgument, "threads is %d; it must be 0 to %d", def->threads,
                       VT_MAX_THREADS);
     }
-    const vtResult result = def->ground != NULL ? vtValidateGround(def->ground, error) : vt_ok;
+    vtResult result = def->ground != NULL ? vtValidateGround(def->ground, error) : vt_ok;
+    if (result == vt_ok && def->backdrop != NULL) {
+        result = vtValidateBackdrop(def->backdrop, error);
+    }
     return result == vt_ok ? vtValidateFrame(def->frame, error) : result;
 }
 
@@ -328,7 +341,7 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     assert(def->environment != NULL || !def->onlyPicture);
     *image = (vtReferenceImage){0};
     vtLighting lighting = {0};
-    vtResult result = checkDef(reference, def, error);
+    vtResult result = checkDef(def, error);
     const bool hasOpaque = reference->glassCount < reference->objectCount;
     vtSun sun = {0}, found = {0};
     if (result == vt_ok && def->ground != NULL && def->environment != NULL && hasOpaque) {
@@ -363,14 +376,16 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
                   .exposure = exp2f(frame->exposure),
                   .roughness = frame->roughness,
                   .dispersion = frame->dispersion},
-        .eyeMedia = frame->orthographicHeight > 0.0f ? (vtMedia){{0}} // its eyes are taken to be in the air
-                                                     : findEyeMedia(reference, frame->view.eye),
         .lighting = lighting,
-        .illumination = {NULL, reference->scene->lights, reference->scene->lightCount, NULL},
+        .illumination = {NULL, reference->lights, reference->scene->lightCount, NULL},
         .sun = sun,
         .tileColumns = tileColumns,
         .tileCount = tileColumns * tileRows,
     };
+    vtCamera_Enter(&job.camera, &reference->space);
+    if (!job.camera.orthographic) { // its eyes are taken to be in the air
+        job.eyeMedia = findEyeMedia(reference, job.camera.eye);
+    }
     job.illumination.lighting = &job.lighting;
     job.illumination.sun = vtSun_IsThere(&sun) ? &job.sun : NULL;
     job.rules.illumination = lighting.specular != NULL ? &job.illumination : NULL;
@@ -382,6 +397,14 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     if (job.spectrum != NULL) {
         vtMakeSpectrum(job.spectrum);
         job.rules.spectrum = job.spectrum;
+    }
+    if (def->backdrop != NULL) {
+        vtVec3 low, high;
+        vtScene_Bounds(reference->scene, &low, &high);
+        job.backdrop =
+            vtPlaceBackdrop(def->backdrop, def->backdropPicture->width, def->backdropPicture->height, frame,
+                            &job.camera, vtSpace_Enter(&reference->space, low),
+                            vtSpace_Enter(&reference->space, high), reference->space.unit);
     }
     if (def->ground != NULL && def->environment != NULL) {
         result = vtReference_LightGround(reference, &job.rules, def->ground, def->environment, def->threads,

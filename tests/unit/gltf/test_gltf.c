@@ -770,7 +770,7 @@ static const struct {
     {"\"buffer\":0,\"byteLength\":96", "\"buffer\":1,\"byteLength\":96", vt_errorFormat,
      "buffer 1 but has 1"},
     {"\"count\":8", "\"count\":9", vt_errorFormat, "accessor 0 reads 12 bytes beyond the end of its buffer"},
-    {"\"count\":8", "\"count\":2147483647", vt_errorFormat, "accessor 0 reads 25769803668 bytes beyond"},
+    {"\"count\":8", "\"count\":2147483647", vt_errorMemory, "a primitive takes 309237645456 bytes"},
     {"\"count\":8", "\"count\":8,\"byteOffset\":4", vt_errorFormat, "accessor 0 reads 4 bytes beyond"},
     {"\"count\":8", "\"count\":8,\"byteOffset\":-4", vt_errorFormat,
      "'byteOffset' that is not a whole number"},

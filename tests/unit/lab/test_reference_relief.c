@@ -28,7 +28,8 @@ typedef struct Counts {
 static RTCScene createScene(RTCDevice device, const vtMesh* mesh, bool asTriangles)
 {
     RTCScene scene = rtcNewScene(device);
-    assert_true(asTriangles ? vtFillScene(device, scene, mesh)
+    const vtSpace space = vtOuterSpace();
+    assert_true(asTriangles ? vtFillScene(device, scene, mesh, &space)
                             : vtFillReliefScene(device, scene, mesh->heights));
     return scene;
 }

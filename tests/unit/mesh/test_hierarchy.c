@@ -72,7 +72,7 @@ static bool findNormal(const Check* check, const uint32_t* corners, double n[3])
     double p[3][3], e[2][3];
     for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k) {
-            const vtVec3 o = check->hierarchy->origin;
+            const vtVec3 o = check->hierarchy->space.origin;
             const float origin[3] = {o.x, o.y, o.z};
             p[i][k] = (double)(check->mesh->positions[3 * (size_t)corners[i] + (size_t)k] - origin[k]);
         }
@@ -100,7 +100,8 @@ static void checkLeaf(Check* check, uint32_t number, const uint32_t box[6])
     const vtHierarchy* h = check->hierarchy;
     const uint32_t* record = h->records + VT_RECORD_WORDS * (size_t)number;
     const uint32_t* corners = h->corners + 4 * (size_t)number;
-    const float origin[3] = {h->origin.x, h->origin.y, h->origin.z};
+    const vtVec3 o = h->space.origin;
+    const float origin[3] = {o.x, o.y, o.z}, unit = h->space.unit;
     const float low[3] = {h->gridLow.x, h->gridLow.y, h->gridLow.z};
     const float scale[3] = {h->gridScale.x, h->gridScale.y, h->gridScale.z};
     for (int i = 0; i < 4; ++i) {
@@ -109,7 +110,7 @@ static void checkLeaf(Check* check, uint32_t number, const uint32_t box[6])
         for (int k = 0; k < 3; ++k) {
             float p;
             memcpy(&p, record + 4 * i + k, sizeof p);
-            assert_true(p == position[k] - origin[k]);
+            assert_true(p == (position[k] - origin[k]) * unit);
             const double step = ((double)p - (double)low[k]) * (double)scale[k];
             assert_true(step >= box[k] + 0.01 && step <= box[k + 3] + 1 - 0.01); // with margin
             assert_true(step >= 0.99 && step <= 4095.01);

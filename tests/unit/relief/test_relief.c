@@ -172,6 +172,21 @@ static void testSmoothingKeepsTheMean(void** state)
     vtDestroyMesh(&mesh);
 }
 
+/// A deviation whose square is 0.
+static void testHardlySmoothedIsAsItWas(void** state)
+{
+    (void)state;
+    const float heights[] = {0.0f, 1.0f, 0.5f, 0.25f};
+    vtReliefDef def = {
+        .heights = heights, .width = 2, .height = 2, .depth = 1.0f, .thickness = 0.1f, .smoothing = 1e-30f};
+    vtMesh mesh;
+    assert_int_equal(vtCreateRelief(&def, "steps", &mesh, NULL), vt_ok);
+    for (int i = 0; i < 4; ++i) {
+        assert_true(vtHeightField_Z(mesh.heights, i % 2, 1 - i / 2) == heights[i]);
+    }
+    vtDestroyMesh(&mesh);
+}
+
 // Decoded pixels are the file's own heights.
 static void testPixelsAreTheFile(void** state)
 {
@@ -263,10 +278,15 @@ static void testBadReliefs(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(testTrianglesAreClosed),    cmocka_unit_test(testTrianglesHaveTheirNumbers),
-        cmocka_unit_test(testRangesHoldTheirCells),  cmocka_unit_test(testContainsWhatIsBelow),
-        cmocka_unit_test(testSmoothingKeepsTheMean), cmocka_unit_test(testBadReliefs),
-        cmocka_unit_test(testPixelsAreTheFile),      cmocka_unit_test(testDepthIsAFactor),
+        cmocka_unit_test(testTrianglesAreClosed),
+        cmocka_unit_test(testTrianglesHaveTheirNumbers),
+        cmocka_unit_test(testRangesHoldTheirCells),
+        cmocka_unit_test(testContainsWhatIsBelow),
+        cmocka_unit_test(testSmoothingKeepsTheMean),
+        cmocka_unit_test(testHardlySmoothedIsAsItWas),
+        cmocka_unit_test(testBadReliefs),
+        cmocka_unit_test(testPixelsAreTheFile),
+        cmocka_unit_test(testDepthIsAFactor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,220 +1,223 @@
-// What glass sees of a host's picture: blurred, beyond what a ray passes behind, and of what is opaque.
+// What glass shows of a picture behind the scene: exact colours, the shift that a slab makes, and what the
+// reference sees.
 #include <string.h>
 
-#include "gl/gl.h"
 #include "rendering.h"
 
-// A host's picture with depth, looked at from (0, 0, 4) at 45 degrees, and what it draws over that.
-typedef struct Host {
-    vtGL gl;
-    GLuint color, depth, target, framebuffer;
-    float view[16], projection[16];
-} Host;
+enum { pictureSide = 256 };
 
-static const float nearPlane = 0.1f, farPlane = 100.0f, wallDepth = 9.0f;
-
-static GLuint makeTexture(const vtGL* gl, int levels, GLenum format)
+/// Red grows to the right and green downwards, a step a texel.
+static vtImage makeRamp(void)
 {
-    GLuint name;
-    gl->GenTextures(1, &name);
-    gl->BindTexture(GL_TEXTURE_2D, name);
-    gl->TexStorage2D(GL_TEXTURE_2D, levels, format, side, side);
-    return name;
-}
-
-/// One colour in a level of the picture.
-static void fillLevel(const Host* host, int level, const uint8_t* rgb)
-{
-    static uint8_t pixels[4 * side * side];
-    for (int i = 0; i < side * side; ++i) {
-        memcpy(pixels + 4 * i, rgb, 3);
-        pixels[4 * i + 3] = 255;
+    vtImage picture = {
+        .pixels = malloc(4 * pictureSide * pictureSide), .width = pictureSide, .height = pictureSide};
+    assert_non_null(picture.pixels);
+    for (int i = 0; i < pictureSide * pictureSide; ++i) {
+        const uint8_t texel[4] = {(uint8_t)(i % pictureSide), (uint8_t)(i / pictureSide), 77, 255};
+        memcpy(picture.pixels + 4 * i, texel, 4);
     }
-    host->gl.BindTexture(GL_TEXTURE_2D, host->color);
-    host->gl.TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, side >> level, side >> level, GL_RGBA,
-                           GL_UNSIGNED_BYTE, pixels);
+    return picture;
 }
 
-/// A red wall, with a post of that depth before its middle, as wide as so many pixels on either side.
-static void fillPicture(const Host* host, float postDepth, int halfWidth)
-{
-    static float depths[side * side];
-    static const uint8_t red[3] = {200, 0, 0};
-    for (int i = 0; i < side * side; ++i) {
-        const bool isPost = abs(i % side - side / 2) < halfWidth;
-        const float depth = isPost ? postDepth : wallDepth;
-        depths[i] = 0.5f * (host->projection[14] / depth - host->projection[10]) + 0.5f;
-    }
-    fillLevel(host, 0, red);
-    host->gl.BindTexture(GL_TEXTURE_2D, host->depth);
-    host->gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_DEPTH_COMPONENT, GL_FLOAT, depths);
-}
-
-static void createHost(const Fixture* fixture, Host* host)
+static void setRamp(Fixture* fixture, const vtBackdrop* backdrop)
 {
     vtError error;
-    *host = (Host){0};
-    assert_ok(vtLoadGL(fixture->context.getProcAddress, &host->gl, &error), error);
-    const vtGL* gl = &host->gl;
-    gl->ActiveTexture(GL_TEXTURE0);
-    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    host->color = makeTexture(gl, 8, GL_RGBA8);
-    host->depth = makeTexture(gl, 1, GL_DEPTH_COMPONENT32F);
-    host->target = makeTexture(gl, 1, GL_RGBA8);
-    gl->GenFramebuffers(1, &host->framebuffer);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, host->framebuffer);
-    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, host->target, 0);
-    const float scale = 1.0f / tanf(0.125f * VT_PI);
-    const float a = (farPlane + nearPlane) / (nearPlane - farPlane),
-                b = 2.0f * farPlane * nearPlane / (nearPlane - farPlane);
-    const float view[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1};
-    const float projection[16] = {scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, a, -1, 0, 0, b, 0};
-    memcpy(host->view, view, sizeof view);
-    memcpy(host->projection, projection, sizeof projection);
-    fillPicture(host, wallDepth, 0);
+    vtImage picture = makeRamp();
+    assert_ok(vtRenderer_SetBackdrop(fixture->renderer, &picture, backdrop, &error), error);
+    free(picture.pixels);
 }
 
-static void destroyHost(const Host* host)
-{
-    const GLuint textures[] = {host->color, host->depth, host->target};
-    host->gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    host->gl.DeleteTextures(3, textures);
-    host->gl.DeleteFramebuffers(1, &host->framebuffer);
-}
-
-static vtFrame frameOver(const Host* host)
+/// Straight along -z, two units high, without perspective: a level of the ramp is 1 / 128.
+static vtFrame straightFrame(void)
 {
     vtFrame frame = smallFrame(vt_techniqueExact);
-    frame.ior = 0.0f;
-    frame.viewMatrix = host->view;
-    frame.projectionMatrix = host->projection;
-    frame.framebuffer = host->framebuffer;
-    frame.overlay = true;
-    frame.hostColor = host->color;
-    frame.hostDepth = host->depth;
+    frame.view = (vtView){{0.0f, 0.0f, 5.0f}, {0.0f, 0.0f, 0.0f}, 45.0f};
+    frame.orthographicHeight = 2.0f;
+    frame.exposure = 1.5f;
+    frame.toneMapping = vt_toneMappingAces;
     return frame;
 }
 
-/// Draws over a target of that blue, and reads it.
-static void drawOver(Fixture* fixture, const Host* host, const vtFrame* frame)
+static void setMesh(Fixture* fixture, vtMesh* mesh, float degrees)
 {
-    static uint8_t blue[4 * side * side];
+    vtScene scene;
     vtError error;
-    for (int i = 0; i < side * side; ++i) {
-        blue[4 * i + 2] = 100;
-    }
-    host->gl.BindTexture(GL_TEXTURE_2D, host->target);
-    host->gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, blue);
-    assert_ok(vtRenderer_Draw(fixture->renderer, frame, &error), error);
-    host->gl.ReadPixels(0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, fixture->pixels);
-    assert_int_equal(host->gl.GetError(), GL_NO_ERROR);
-}
-
-static const uint8_t* pixelAt(const Fixture* fixture, int x, int y)
-{
-    return fixture->pixels + 4 * (side * y + x);
-}
-
-/// Level 0 is red, all others are green: rough glass looks into them, where they are told of.
-static void roughGlassSeesLevels(void** state)
-{
-    Fixture* fixture = *state;
-    Host host;
-    createHost(fixture, &host);
-    static const uint8_t green[3] = {0, 200, 0};
-    for (int level = 1; level < 8; ++level) {
-        fillLevel(&host, level, green);
-    }
-    setShape(fixture->renderer, "sphere");
-    for (int i = 0; i < 4; ++i) {
-        vtFrame frame = frameOver(&host);
-        frame.roughness = i % 2 == 0 ? 0.0f : 0.4f;
-        frame.hostLevels = i >= 2;
-        drawOver(fixture, &host, &frame);
-        const uint8_t* middle = pixelAt(fixture, side / 2, side / 2);
-        assert_int_equal(middle[0] > 100, i != 3);
-        assert_int_equal(middle[1] > 100, i == 3);
-    }
-    destroyHost(&host);
-}
-
-/// A ball turns the picture round: light at its right comes from the left of the wall, behind a post before
-/// the ball.
-static void raysGoOnBeyondWhatTheyPassBehind(void** state)
-{
-    Fixture* fixture = *state;
-    Host host;
-    createHost(fixture, &host);
-    setShape(fixture->renderer, "sphere");
-    setEnvironment(fixture->renderer, "checker");
-    fillPicture(&host, 2.0f, 4);
-    const vtFrame frame = frameOver(&host);
-    drawOver(fixture, &host, &frame);
-    for (int i = 0; i < 2; ++i) {
-        const uint8_t* seen = pixelAt(fixture, side / 2 + (2 * i - 1) * side / 8, side / 2);
-        assert_near(seen[0], 200.0f, 1.0f);
-        assert_int_equal(seen[1], 0);
-    }
-    assert_int_equal(pixelAt(fixture, side / 2, side / 2)[2], 100); // the post
-    destroyHost(&host);
-}
-
-/// A green thing behind a thin pane that covers its left half.
-static void setPaneBeforeThing(Fixture* fixture, bool unlit)
-{
-    vtScene scene = {0};
-    vtError error;
-    vtMaterial materials[2] = {vtDefaultMaterial(), vtDefaultMaterial()};
-    materials[0].thin = true;
-    materials[1].opaque = true;
-    materials[1].unlit = unlit;
-    materials[1].baseColor = (vtVec3){0.0f, 0.5f, 0.0f};
-    for (uint32_t i = 0; i < 2; ++i) {
-        vtMesh mesh;
-        vtObject object = {.toWorld = vtIdentityTransform()};
-        assert_ok(vtCreateShape("plane", &mesh, &error), error);
-        object.toWorld.rows[0][3] = i == 0 ? -mesh.boundsMax.x : 0.0f;
-        object.toWorld.rows[2][3] = i == 0 ? 0.0f : 4.0f - wallDepth;
-        assert_ok(vtScene_AddMesh(&scene, &mesh, &object.mesh, &error), error);
-        assert_ok(vtScene_AddMaterial(&scene, &materials[i], &object.material, &error), error);
-        assert_ok(vtScene_AddObject(&scene, &object, NULL, &error), error);
-    }
+    const vtMaterial material = vtDefaultMaterial();
+    assert_ok(vtCreateMeshScene(mesh, &material, &scene, &error), error);
+    const float s = sinf(degrees * VT_PI / 180.0f), c = cosf(degrees * VT_PI / 180.0f);
+    scene.objects[0].toWorld = (vtTransform){{{c, 0, s, 0}, {0, 1, 0, 0}, {-s, 0, c, 0}}};
     assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
     vtDestroyScene(&scene);
+    vtDestroyMesh(mesh);
 }
 
-/// That thing is where the host has drawn a red one.
-static void whatIsOpaqueCanBeTheHosts(void** state)
+/// Asserts that a pixel shows the ramp, moved by so many units, to a level of it.
+static void assertRamp(const Fixture* fixture, int column, int row, float shift)
+{
+    const uint8_t* pixel = fixture->pixels + 4 * (row * side + column);
+    const float right = 2.0f * (float)column + 0.5f + 128.0f * shift, down = 2.0f * (float)row + 0.5f;
+    assert_near((float)pixel[0], right, 1.0f);
+    assert_near((float)pixel[1], down, 1.0f);
+    assert_near((float)pixel[2], 77.0f, 0.5f);
+}
+
+static void aPanelLeavesThePictureAsItIs(void** state)
 {
     Fixture* fixture = *state;
-    Host host;
-    createHost(fixture, &host);
+    vtError error;
+    vtMesh mesh;
+    const vtPanelDef def = {.width = 1.5f, .height = 1.2f, .radius = 0.2f, .bevel = 0.1f, .thickness = 0.3f};
+    assert_ok(vtCreatePanel(&def, &mesh, &error), error);
+    setMesh(fixture, &mesh, 0.0f);
     setEnvironment(fixture->renderer, "studio");
-    for (int i = 0; i < 4; ++i) {
-        setPaneBeforeThing(fixture, i != 3);         // shaded by looks.glsl, or by shading.glsl
-        fillPicture(&host, 2.0f, i == 2 ? side : 0); // the wall is hidden by what fills the picture
-        vtFrame frame = frameOver(&host);
-        frame.hostOpaque = i > 0;
-        frame.overlay = i != 2;
-        frame.background = vt_backgroundTransparent;
-        drawOver(fixture, &host, &frame);
-        const uint8_t *behind = pixelAt(fixture, side / 2 - side / 12, side / 2),
-                      *beside = pixelAt(fixture, side / 2 + side / 12, side / 2);
-        const bool isHosts = i % 2 == 1;
-        assert_int_equal(behind[0] > 150, isHosts);
-        assert_int_equal(behind[1] > 150, !isHosts);
-        assert_int_equal(beside[1] > 150, i == 0);
-        assert_int_equal(beside[2], isHosts ? 100 : 0);
+    const vtBackdrop backdrop = vtDefaultBackdrop();
+    setRamp(fixture, &backdrop);
+    const vtFrame frame = straightFrame();
+    draw(fixture, &frame);
+    int bent = 0;
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            const float x = fabsf((float)column + 0.5f - 64.0f) / 64.0f,
+                        y = fabsf((float)row + 0.5f - 64.0f) / 64.0f;
+            const bool isFlat = (x < 0.64f && y < 0.39f) || (x < 0.54f && y < 0.49f);
+            if (isFlat || x > 0.76f || y > 0.61f) { // its flat middle, and beside it
+                assertRamp(fixture, column, row, 0.0f);
+            } else {
+                bent += abs(fixture->pixels[4 * (row * side + column)] - 2 * column) > 3;
+            }
+        }
     }
-    destroyHost(&host);
+    assert_true(bent > side); // its edge shows other parts
+    // Of what the environment reflects nothing else changes: Fresnel reflection adds light.
+    vtFrame reflecting = frame;
+    reflecting.fresnel = true;
+    draw(fixture, &reflecting);
+    assert_true(abs(fixture->pixels[4 * (64 * side + 64)] - 128) < 40);
+    assert_ok(vtRenderer_SetBackdrop(fixture->renderer, NULL, NULL, &error), error);
+    draw(fixture, &frame);
+    assert_true(fixture->pixels[2] != 77);
+}
+
+static void aSlabShiftsThePicture(void** state)
+{
+    Fixture* fixture = *state;
+    vtError error;
+    vtMesh mesh;
+    const vtPanelDef def = {
+        .width = 1.9f, .height = 1.9f, .radius = 0.05f, .bevel = 0.01f, .thickness = 0.4f};
+    const float degrees = 35.0f, angle = degrees * VT_PI / 180.0f, within = asinf(sinf(angle) / 1.5f);
+    assert_ok(vtCreatePanel(&def, &mesh, &error), error);
+    setMesh(fixture, &mesh, degrees);
+    setEnvironment(fixture->renderer, "studio");
+    // The textbook's shift of a ray, whatever the distance; the ray leaves on the side that the slab leans
+    // to.
+    const float shift = def.thickness * sinf(angle - within) / cosf(within);
+    for (int i = 0; i < 2; ++i) {
+        const vtBackdrop backdrop = {.distance = i == 0 ? 2.0f : 40.0f};
+        setRamp(fixture, &backdrop);
+        const vtFrame frame = straightFrame();
+        draw(fixture, &frame);
+        for (int column = 50; column < 78; column += 3) {
+            assertRamp(fixture, column, 20 + column, -shift);
+        }
+        assertRamp(fixture, 2, 64, 0.0f);
+    }
+}
+
+static void aPartOfThePictureFillsTheFrame(void** state)
+{
+    Fixture* fixture = *state;
+    setShape(fixture->renderer, "sphere");
+    setEnvironment(fixture->renderer, "studio");
+    const vtBackdrop backdrop = {.part = {0.25f, -0.5f, 0.75f, 0.5f}};
+    setRamp(fixture, &backdrop);
+    vtFrame frame = smallFrame(vt_techniqueExact); // in perspective
+    frame.toneMapping = vt_toneMappingNeutral;
+    draw(fixture, &frame);
+    const uint8_t *left = fixture->pixels, *right = left + 4 * (side - 1),
+                  *lower = left + 4 * (side - 1) * side;
+    assert_near((float)left[0], 64.0f, 1.0f);
+    assert_near((float)right[0], 191.0f, 1.0f);
+    assert_near((float)left[1], 127.0f, 1.5f); // mirrored above its top
+    assert_near((float)lower[1], 127.0f, 1.5f);
+    frame.background = vt_backgroundTransparent;
+    draw(fixture, &frame);
+    assert_int_equal(left[3], 0);
+}
+
+static void theReferenceSeesTheSame(void** state)
+{
+    Fixture* fixture = *state;
+    vtScene scene;
+    vtError error;
+    vtMesh mesh;
+    assert_ok(vtCreateShape("sphere", &mesh, &error), error);
+    const vtMaterial material = vtDefaultMaterial();
+    assert_ok(vtCreateMeshScene(&mesh, &material, &scene, &error), error);
+    vtDestroyMesh(&mesh);
+    assert_ok(vtRenderer_SetScene(fixture->renderer, &scene, &error), error);
+    vtEnvironment environment;
+    assert_ok(vtCreateEnvironment("studio", &environment, &error), error);
+    assert_ok(vtRenderer_SetEnvironment(fixture->renderer, &environment, &error), error);
+    const vtBackdrop backdrop = {.distance = 1.7f};
+    setRamp(fixture, &backdrop);
+    vtFrame frame = smallFrame(vt_techniqueExact);
+    frame.toneMapping = vt_toneMappingNone;
+    frame.exposure = 0.5f;
+    draw(fixture, &frame);
+    vtReference* reference;
+    vtReferenceImage truth;
+    if (vtCreateReference(&scene, &reference, &error) != vt_ok) {
+        vtDestroyScene(&scene);
+        skip();
+    }
+    vtImage picture = makeRamp();
+    const vtReferenceDef def = {
+        .frame = &frame, .environment = &environment, .backdrop = &backdrop, .backdropPicture = &picture};
+    assert_ok(vtReference_Trace(reference, &def, &truth, &error), error);
+    static uint8_t wanted[4 * side * side];
+    vtReference_ToSrgb(&truth, wanted);
+    int far = 0;
+    for (int i = 0; i < 4 * side * side; ++i) {
+        far += abs(wanted[i] - fixture->pixels[i]) > 4;
+    }
+    assert_true(far < 2 * side); // at the silhouette, where a pixel's rays part
+    vtDestroyReferenceImage(&truth);
+    vtDestroyReference(reference);
+    vtDestroyScene(&scene);
+    free(picture.pixels);
+}
+
+static void whatCannotBeIsRefused(void** state)
+{
+    Fixture* fixture = *state;
+    vtError error;
+    const vtBackdrop good = vtDefaultBackdrop();
+    assert_int_equal(vtRenderer_SetBackdrop(fixture->renderer, NULL, &good, &error), vt_errorArgument);
+    assert_string_equal(error.message, "there is no picture for the backdrop; give one");
+    const vtImage empty = {0};
+    assert_int_equal(vtRenderer_SetBackdrop(fixture->renderer, &empty, &good, &error), vt_errorArgument);
+    assert_int_equal(vtRenderer_SetBackdrop(NULL, NULL, &good, &error), vt_errorArgument);
+    const vtBackdrop bad[] = {{.distance = NAN},
+                              {.distance = -1.0f},
+                              {.distance = 2e6f},
+                              {.part = {0.5f, 0.0f, 0.5f, 1.0f}},
+                              {.part = {0.0f, 1.0f, 1.0f, 0.0f}},
+                              {.part = {0.0f, 0.0f, NAN, 1.0f}}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        assert_int_equal(vtValidateBackdrop(&bad[i], &error), vt_errorArgument);
+    }
+    assert_int_equal(vtValidateBackdrop(NULL, &error), vt_errorArgument);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(roughGlassSeesLevels),
-        cmocka_unit_test(raysGoOnBeyondWhatTheyPassBehind),
-        cmocka_unit_test(whatIsOpaqueCanBeTheHosts),
+        cmocka_unit_test_setup_teardown(aPanelLeavesThePictureAsItIs, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(aSlabShiftsThePicture, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(aPartOfThePictureFillsTheFrame, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(theReferenceSeesTheSame, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(whatCannotBeIsRefused, setUp, tearDown),
     };
-    return cmocka_run_group_tests(tests, setUp, tearDown);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

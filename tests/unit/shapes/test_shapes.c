@@ -116,15 +116,15 @@ static int intersectLine(const vtMesh* mesh, float height, float depth, float* h
 static void testNames(void** state)
 {
     (void)state;
-    const char* const names[] = {"sphere",  "torus", "knot",  "goblet",  "bottle",
-                                 "diamond", "cube",  "plane", "tumbler", "water"};
-    for (int i = 0; i < 10; ++i) {
+    const char* const names[] = {"sphere", "torus", "knot",    "goblet", "bottle", "diamond",
+                                 "cube",   "plane", "tumbler", "water",  "panel"};
+    for (int i = 0; i < 11; ++i) {
         assert_string_equal(vtShapeName(i), names[i]);
         assert_true(strlen(vtShapeSummary(i)) > 10);
     }
-    assert_null(vtShapeName(10));
+    assert_null(vtShapeName(11));
     assert_null(vtShapeName(-1));
-    assert_null(vtShapeSummary(10));
+    assert_null(vtShapeSummary(11));
     assert_null(vtShapeSummary(-1));
 }
 
@@ -138,7 +138,7 @@ static void testUnknownName(void** state)
     assert_int_equal(error.result, vt_errorArgument);
     assert_string_equal(error.message,
                         "shape 'teapot' is unknown; the shapes are sphere, torus, knot, goblet, bottle, "
-                        "diamond, cube, plane, tumbler and water");
+                        "diamond, cube, plane, tumbler, water and panel");
     assert_null(mesh.positions);
     assert_int_equal(mesh.indexCount, 0);
     assert_int_equal(vtCreateShape("", &mesh, NULL), vt_errorArgument);
@@ -202,7 +202,7 @@ static void testExtents(void** state)
 static void testTopology(void** state)
 {
     (void)state;
-    const int euler[] = {2, 0, 0, 2, 2, 2, 2, 0, 2, 2}; // 2 - 2 * holes
+    const int euler[] = {2, 0, 0, 2, 2, 2, 2, 0, 2, 2, 2}; // 2 - 2 * holes
     for (int i = 0; vtShapeName(i) != NULL; ++i) {
         vtMesh mesh = createShape(vtShapeName(i));
         assert_true(mesh.openEdgeCount > 0 || measureEuler(&mesh) == euler[i]);
@@ -211,6 +211,83 @@ static void testTopology(void** state)
 }
 
 // --------------------------------------------------------------------------------------------- each shape
+
+/// A slice's area is a rectangle's less its corners', summed over the thickness in fine steps.
+static double volumeOfPanel(const vtPanelDef* def)
+{
+    const double most = 0.5 * fmin((double)def->width, (double)def->height),
+                 half = 0.5 * (double)def->thickness;
+    const double radius = fmin((double)def->radius, most), bevel = fmin((double)def->bevel, most);
+    const double drop = fmin(bevel, half);
+    double volume = 0.0;
+    const int steps = 20000;
+    for (int i = 0; i < steps; ++i) {
+        const double z = (i + 0.5) / steps * half, above = fmax(z - (half - drop), 0.0);
+        const double inset =
+            drop > 0.0 ? bevel * (1.0 - sqrt(fmax(1.0 - above * above / (drop * drop), 0.0))) : 0.0;
+        const double round = fmax(radius - inset, 0.0);
+        const double area = ((double)def->width - 2.0 * inset) * ((double)def->height - 2.0 * inset) -
+                            (4.0 - (double)VT_PI) * round * round;
+        volume += 2.0 * area * half / steps;
+    }
+    return volume;
+}
+
+static void testPanel(void** state)
+{
+    (void)state;
+    const vtPanelDef defs[] = {
+        vtDefaultPanelDef(),
+        {.width = 320, .height = 200, .radius = 24, .bevel = 12, .thickness = 20},
+        {.width = 1, .height = 3, .radius = 0, .bevel = 0, .thickness = 0.1f},    // a slab
+        {.width = 1, .height = 3, .radius = 0.2f, .bevel = 0, .thickness = 0.1f}, // sharp edges
+        {.width = 1, .height = 1, .radius = 9, .bevel = 0.2f, .thickness = 2},    // round
+        {.width = 2, .height = 1, .radius = 0.1f, .bevel = 0.3f, .thickness = 0.2f},
+        {.width = 2, .height = 1, .radius = 0.5f, .bevel = 5, .thickness = 0.2f}, // no flat middle
+        {.width = 1, .height = 1, .radius = 0, .bevel = 5, .thickness = 5},
+    };
+    for (size_t i = 0; i < sizeof defs / sizeof defs[0]; ++i) {
+        vtMesh mesh;
+        vtError error;
+        assert_int_equal(vtCreatePanel(&defs[i], &mesh, &error), vt_ok);
+        assert_int_equal(mesh.openEdgeCount, 0);
+        assert_false(mesh.normalsComputed);
+        const vtVec3 size = vtSub(mesh.boundsMax, mesh.boundsMin);
+        assert_float_equal(size.x, defs[i].width, 1e-5f * defs[i].width);
+        assert_float_equal(size.y, defs[i].height, 1e-5f * defs[i].height);
+        assert_float_equal(size.z, defs[i].thickness, 1e-5f * defs[i].thickness);
+        const double volume = measureVolume(&mesh), exact = volumeOfPanel(&defs[i]);
+        assert_true(volume < 1.0001 * exact && volume > 0.95 * exact); // its facets lie within
+        for (size_t k = 0; k < mesh.indexCount; ++k) {
+            const vtVec3 area = getArea(&mesh, k - k % 3), normal = getNormal(&mesh, k);
+            assert_float_equal(vtLength(normal), 1.0f, 1e-5f);
+            assert_true(vtLength(area) == 0.0f || vtDot(vtNormalize(area), normal) > 0.99f);
+        }
+        vtDestroyMesh(&mesh);
+    }
+}
+
+static void testPanelNumbers(void** state)
+{
+    (void)state;
+    vtMesh mesh;
+    vtError error;
+    const vtPanelDef bad[] = {
+        {.width = 0, .height = 1, .radius = 0, .bevel = 0, .thickness = 1},
+        {.width = 1, .height = NAN, .radius = 0, .bevel = 0, .thickness = 1},
+        {.width = 1, .height = 1, .radius = -1, .bevel = 0, .thickness = 1},
+        {.width = 1, .height = 1, .radius = 0, .bevel = INFINITY, .thickness = 1},
+        {.width = 1, .height = 1, .radius = 0, .bevel = 0, .thickness = 1e7f},
+    };
+    const char* const names[] = {"width", "height", "radius", "bevel", "thickness"};
+    for (size_t i = 0; i < 5; ++i) {
+        assert_int_equal(vtCreatePanel(&bad[i], &mesh, &error), vt_errorArgument);
+        assert_non_null(strstr(error.message, names[i]));
+        assert_null(mesh.positions);
+    }
+    assert_int_equal(vtCreatePanel(NULL, &mesh, &error), vt_errorArgument);
+    assert_int_equal(vtCreatePanel(&bad[0], NULL, &error), vt_errorArgument);
+}
 
 static void testSphere(void** state)
 {
@@ -436,6 +513,8 @@ int main(void)
         cmocka_unit_test(testNormals),
         cmocka_unit_test(testExtents),
         cmocka_unit_test(testTopology),
+        cmocka_unit_test(testPanel),
+        cmocka_unit_test(testPanelNumbers),
         cmocka_unit_test(testSphere),
         cmocka_unit_test(testTorus),
         cmocka_unit_test(testKnot),

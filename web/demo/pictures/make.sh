@@ -19,4 +19,4 @@ trap 'rm -r "$models"' EXIT
 node ../models.mjs "$models" # the bunny needs `npm ci` in tests/
 draw "$models/bunny.glb" --samples 16 --resolution 112,112 --fov 38 -o bunny.png
 # camera-orbit "30deg 72deg 3.4m", camera-target "0m 0m 0m": see `reference` in state.js
-draw knot --samples 4 --resolution 480,480 --camera 1.616796,1.050658,2.800373 --target 0,0,0 --fov 45 -o reference.png
+draw knot --samples 32 --resolution 1024,1024 --camera 1.616796,1.050658,2.800373 --target 0,0,0 --fov 45 -o reference.png

@@ -1,4 +1,4 @@
-#include "cli/backdrop.h"
+#include "cli/background.h"
 
 #include <math.h>
 
@@ -7,21 +7,22 @@
 #include "image/image.h"
 #include "light/blur.h"
 
-vtResult vtMakeBackdrop(const vtInput* input, const vtFrame* frame, vtBackdrop* backdrop, vtError* error)
+vtResult vtMakeTracedBackground(const vtInput* input, const vtFrame* frame, vtTracedBackground* background,
+                                vtError* error)
 {
-    *backdrop = (vtBackdrop){.frame = frame,
-                             .camera = vtMakeCamera(frame),
-                             .picture = &input->background,
-                             .exposure = exp2f(frame->exposure)};
+    *background = (vtTracedBackground){.frame = frame,
+                                       .camera = vtMakeCamera(frame),
+                                       .picture = &input->background,
+                                       .exposure = exp2f(frame->exposure)};
     return frame->background == vt_backgroundBlurred
-               ? vtBlurEnvironment(&input->environment, frame->backgroundBlur, &backdrop->blurred, error)
+               ? vtBlurEnvironment(&input->environment, frame->backgroundBlur, &background->blurred, error)
                : vtSucceed(error);
 }
 
-void vtDestroyBackdrop(vtBackdrop* backdrop)
+void vtDestroyTracedBackground(vtTracedBackground* background)
 {
-    vtDestroyEnvironment(&backdrop->blurred);
-    *backdrop = (vtBackdrop){0};
+    vtDestroyEnvironment(&background->blurred);
+    *background = (vtTracedBackground){0};
 }
 
 static vtVec3 toLinear(vtVec3 color)
@@ -52,10 +53,10 @@ static vtVec3 readBetween(const vtImage* picture, float x, float y)
 }
 
 /// The picture fills the frame; of a larger one the mean over the pixel.
-static vtVec3 pictureAt(const vtBackdrop* backdrop, float x, float y)
+static vtVec3 pictureAt(const vtTracedBackground* background, float x, float y)
 {
-    const vtImage* picture = backdrop->picture;
-    const vtFrame* frame = backdrop->frame;
+    const vtImage* picture = background->picture;
+    const vtFrame* frame = background->frame;
     const float scale =
         fminf((float)picture->width / (float)frame->width, (float)picture->height / (float)frame->height);
     const int parts = scale > 1.0f ? (int)fminf(ceilf(scale), 64.0f) : 1; // along a side of the pixel
@@ -70,14 +71,14 @@ static vtVec3 pictureAt(const vtBackdrop* backdrop, float x, float y)
     return vtScale(sum, 1.0f / (float)(parts * parts));
 }
 
-static vtVec3 blurredAt(const vtBackdrop* backdrop, float x, float y)
+static vtVec3 blurredAt(const vtTracedBackground* background, float x, float y)
 {
-    const vtCamera* camera = &backdrop->camera;
-    const float right = (x / (float)backdrop->frame->width * 2.0f - 1.0f) * camera->high[0];
-    const float up = (1.0f - y / (float)backdrop->frame->height * 2.0f) * camera->high[1];
+    const vtCamera* camera = &background->camera;
+    const float right = (x / (float)background->frame->width * 2.0f - 1.0f) * camera->high[0];
+    const float up = (1.0f - y / (float)background->frame->height * 2.0f) * camera->high[1];
     const vtVec3 towards = vtMulAdd(vtMulAdd(camera->forward, right, camera->right), up, camera->up);
     const vtVec3 direction = camera->orthographic ? camera->forward : vtNormalize(towards);
-    return vtScale(vtEnvironment_Sample(&backdrop->blurred, direction), backdrop->exposure);
+    return vtScale(vtEnvironment_Sample(&background->blurred, direction), background->exposure);
 }
 
 static vtVec3 shownLight(const vtFrame* frame, vtVec3 light)
@@ -86,16 +87,17 @@ static vtVec3 shownLight(const vtFrame* frame, vtVec3 light)
     return (vtVec3){fminf(light.x, 1.0f), fminf(light.y, 1.0f), fminf(light.z, 1.0f)};
 }
 
-void vtBackdrop_Show(const vtBackdrop* backdrop, int column, int row, vtVec3 light, float share, float* rgba)
+void vtTracedBackground_Show(const vtTracedBackground* background, int column, int row, vtVec3 light,
+                             float share, float* rgba)
 {
-    const vtFrame* frame = backdrop->frame;
+    const vtFrame* frame = background->frame;
     const float x = (float)column + 0.5f, y = (float)row + 0.5f;
     const bool isLight = frame->background == vt_backgroundBlurred;
     vtVec3 back = toLinear(frame->backgroundColor);
     if (isLight) {
-        light = vtMix(blurredAt(backdrop, x, y), light, share);
+        light = vtMix(blurredAt(background, x, y), light, share);
     } else if (frame->background == vt_backgroundPicture) {
-        back = pictureAt(backdrop, x, y);
+        back = pictureAt(background, x, y);
     }
     vtVec3 shown = frame->linear ? light : shownLight(frame, light);
     const bool isOver = !isLight && frame->background != vt_backgroundTransparent;

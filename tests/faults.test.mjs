@@ -1,0 +1,232 @@
+// <vitrine-viewer> in Chromium where WebGL fails: whichever call it is, the picture is right or there is a sentence,
+// other elements keep theirs, and once WebGL works again so does the element. Needs what element.test.mjs needs.
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import { dirname, join, resolve } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { answerWithFile, chromiumPath, launch, listen, openPage, skipWithout } from './browser-tools.mjs';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
+const modules = await import('playwright-core').catch(() => null);
+const skip = skipWithout(
+  [modules, "node modules (run 'npm ci' in tests/)"],
+  [existsSync(join(site, 'element/vitrine-viewer.js')), `${site}/element`],
+  [existsSync(chromiumPath), chromiumPath],
+);
+
+const page = `<!doctype html><html lang="en"><title>Test</title><link rel="icon" href="data:,">
+  <style>body { margin: 0 } vitrine-viewer { width: 32px; height: 32px; display: block }</style>
+  <script type="module" src="/element/vitrine-viewer.js"></script><div id="place"></div>`;
+
+/** In the page, before its scripts: the n-th call of some name fails as WebGL has it; and what tests do there. */
+function simulate() {
+  const { prototype } = WebGL2RenderingContext;
+  const fault = (window.fault = { name: '', at: 0, calls: 0, error: 0, isTiny: false, refused: [] });
+  const real = {};
+  const wrap = (name, act) => {
+    real[name] = prototype[name];
+    prototype[name] = function (...values) {
+      return act.call(this, (...others) => real[name].apply(this, others.length > 0 ? others : values), ...values);
+    };
+  };
+  const fails = (name) => fault.name === name && ++fault.calls === fault.at;
+  const outOfMemory = 0x0505;
+  const refuses = (what, isTooMuch) => {
+    if (fault.isTiny && isTooMuch) fault.refused.push(what);
+    return false;
+  };
+  wrap('getError', function (call) {
+    const { error } = fault;
+    fault.error = 0;
+    return error || call();
+  });
+  for (const name of ['texStorage2D', 'texStorage3D', 'bufferData', 'texSubImage2D', 'drawArrays', 'drawElements']) {
+    wrap(name, function (call, ...values) {
+      if (name === 'texStorage2D') refuses(name, values[3] > 2048 || values[4] > 2048);
+      if (name === 'texStorage3D') refuses(name, values[3] > 2048 || values[4] > 2048 || values[5] > 256);
+      if (!fails(name)) return call();
+      fault.error = outOfMemory;
+    });
+  }
+  for (const name of ['framebufferTexture2D', 'framebufferTextureLayer']) wrap(name, (call) => fails(name) || call()); // it stays incomplete
+  wrap('drawBuffers', (call, buffers) => refuses('drawBuffers', buffers.length > 4) || call());
+  wrap('activeTexture', (call, unit) => refuses('activeTexture', unit >= 0x84c0 + 32) || call());
+  wrap('shaderSource', (call, shader, text) => call(shader, fails('compileShader') ? '#version 300 es\n#error simulated\n' : text));
+  wrap('linkProgram', function (call, program) {
+    if (fails('linkProgram')) return;
+    call();
+    if (!fault.isTiny) return;
+    let samplers = 0;
+    for (let i = 0; i < this.getProgramParameter(program, this.ACTIVE_UNIFORMS); ++i) samplers += /SAMPLER/.test(Object.keys(prototype).find((key) => /SAMPLER/.test(key) && this[key] === this.getActiveUniform(program, i).type) ?? '') ? 1 : 0;
+    refuses(`${samplers} samplers`, samplers > 16);
+  });
+  wrap('getParameter', function (call, name) {
+    const least = { [this.MAX_TEXTURE_SIZE]: 2048, [this.MAX_ARRAY_TEXTURE_LAYERS]: 256, [this.MAX_DRAW_BUFFERS]: 4, [this.MAX_COLOR_ATTACHMENTS]: 4, [this.MAX_TEXTURE_IMAGE_UNITS]: 16, [this.MAX_COMBINED_TEXTURE_IMAGE_UNITS]: 32 };
+    return fault.isTiny && name in least ? least[name] : call();
+  });
+  wrap('getExtension', (call, name) => (fault.isTiny && /float|parallel/.test(name) ? null : call()));
+  wrap('getSupportedExtensions', (call) => (fault.isTiny ? [] : call()));
+
+  // The context is lost at the n-th call of any of those, and given back after a while where it shall be.
+  const loses = ['texStorage2D', 'bufferData', 'shaderSource', 'linkProgram', 'drawArrays', 'fenceSync'];
+  for (const name of [...loses, 'getProgramParameter', 'getSyncParameter']) {
+    const before = prototype[name];
+    prototype[name] = function (...values) {
+      const isLost = fault.name === 'loss' && ++fault.calls === fault.at;
+      if (isLost) {
+        const loss = this.getExtension('WEBGL_lose_context');
+        loss.loseContext();
+        setTimeout(() => loss.restoreContext(), 50);
+      }
+      return before.apply(this, values);
+    };
+  }
+
+  const pixels = async (viewer) => {
+    const { data } = await viewer.toBlob().then(createImageBitmap).then((bitmap) => {
+      const context = new OffscreenCanvas(32, 32).getContext('2d');
+      context.drawImage(bitmap, 0, 0);
+      return context.getImageData(0, 0, 32, 32);
+    });
+    return data.join();
+  };
+  const make = (technique) => Object.assign(document.createElement('vitrine-viewer'), { src: 'diamond', environmentImage: 'studio', skyboxImage: ' ', samples: 2, interpolationDecay: 0, technique });
+  const says = (viewer) => {
+    const part = viewer.shadowRoot.querySelector('[part=message]');
+    return part.hidden ? '' : part.textContent;
+  };
+  const until = async (what, holds) => {
+    for (const end = performance.now() + 120000; !holds();) {
+      if (performance.now() > end) throw new Error(`waited in vain: ${what()}`);
+      await new Promise((done) => setTimeout(done, 5));
+    }
+  };
+  window.setFault = (name, at) => Object.assign(fault, { name, at, calls: 0, error: 0 });
+  /** A new element under a fault, then without: what it said, and whether its pictures are right. */
+  window.play = async (technique, name, at, expected) => {
+    const viewer = make(technique), errors = [];
+    viewer.addEventListener('error', ({ detail }) => errors.push(detail.sourceError.message));
+    window.setFault(name, at);
+    window.place.append(viewer);
+    await until(() => `${technique}, ${name} ${at}: ${says(viewer)}`, () => viewer.loaded || says(viewer));
+    const said = says(viewer), hit = fault.calls >= at;
+    const seen = viewer.loaded && !said && name !== 'loss' ? await pixels(viewer).catch(({ message }) => message) : expected;
+    window.setFault('', 0);
+    if (/graphics context/.test(said)) await until(() => `${technique}, ${name} ${at}, back: ${says(viewer)}`, () => viewer.loaded && !says(viewer));
+    Object.assign(viewer, { environmentImage: 'sky' });
+    Object.assign(viewer, { src: 'cube' });
+    await new Promise((done) => setTimeout(done, 20));
+    Object.assign(viewer, { src: 'diamond', environmentImage: 'studio' });
+    await until(() => `${technique}, ${name} ${at}, again: ${says(viewer)}`, () => viewer.loaded && !says(viewer));
+    let again = await pixels(viewer);
+    for (let i = 0; again !== expected && i < 100; ++i) { // the model before may still be there
+      await new Promise((done) => setTimeout(done, 20));
+      again = await pixels(viewer);
+    }
+    viewer.remove();
+    await new Promise((done) => setTimeout(done));
+    return { hit, said, errors, wrong: seen !== expected && !/GL/.test(seen), stays: again !== expected };
+  };
+  window.expect = async (technique) => {
+    const viewer = make(technique);
+    window.place.append(viewer);
+    await until(() => says(viewer), () => viewer.loaded);
+    const seen = await pixels(viewer);
+    viewer.remove();
+    await new Promise((done) => setTimeout(done));
+    return seen;
+  };
+  /** One that stays, so that the context does. */
+  window.keep = async () => {
+    const viewer = make('exact');
+    window.place.append(viewer);
+    await until(() => says(viewer), () => viewer.loaded);
+    return viewer;
+  };
+  window.pixels = pixels;
+}
+
+describe('the element where WebGL fails', { skip }, () => {
+  let server, browser;
+
+  before(async () => {
+    server = await listen((request, response) => {
+      const { pathname } = new URL(request.url, 'http://localhost');
+      if (pathname === '/') response.writeHead(200, { 'content-type': 'text/html' }).end(page);
+      else answerWithFile(site, pathname, response);
+    });
+    browser = await launch();
+  });
+  after(async () => {
+    await browser?.close();
+    server?.close();
+  });
+
+  async function open(t) {
+    const opened = await openPage(browser, { viewport: { width: 200, height: 200 } });
+    const thrown = [];
+    opened.on('pageerror', (error) => thrown.push(String(error)));
+    t.after(async () => {
+      await opened.context().close();
+      assert.deepEqual(thrown, []);
+    });
+    await opened.addInitScript(simulate);
+    await opened.goto(server.address);
+    await opened.waitForFunction(() => customElements.get('vitrine-viewer'));
+    return opened;
+  }
+
+  /** All calls of that name in turn, every `stride`-th. */
+  const failEach = (opened, names, ids, stride, most) => opened.evaluate(async ([calls, techniquesToTry, step, limit]) => {
+    const kept = await window.keep(), before = await window.pixels(kept), answers = [];
+    for (const technique of techniquesToTry) {
+      const expected = await window.expect(technique);
+      for (const name of calls) {
+        for (let at = 1; at <= limit; at += step) {
+          const answer = await window.play(technique, name, at, expected);
+          if (!answer.hit) break;
+          answers.push({ technique, name, at, ...answer });
+        }
+      }
+    }
+    return { answers, others: (await window.pixels(kept)) === before };
+  }, [names, ids, stride, most]);
+
+  function judge(t, { answers, others }, least) {
+    t.diagnostic(`${answers.length} faults, ${answers.filter(({ said }) => said).length} sentences, as '${answers.find(({ said }) => said)?.said}'`);
+    assert.ok(answers.length >= least, `${answers.length} faults`);
+    for (const { technique, name, at, said, errors, wrong, stays } of answers) {
+      const where = `${technique}, ${name} ${at}`;
+      assert.ok(!wrong, `${where}: another picture, and nothing said`);
+      assert.ok(!stays, `${where}: another picture afterwards`);
+      assert.ok(!said || errors.length > 0, `${where}: no error event`);
+    }
+    assert.ok(others, 'the other element has its picture');
+  }
+
+  test('no memory, and framebuffers that are not complete', async (t) => {
+    const answer = await failEach(await open(t), ['texStorage2D', 'texStorage3D', 'framebufferTexture2D', 'framebufferTextureLayer', 'bufferData', 'drawArrays'], ['exact'], 3, 40);
+    judge(t, answer, 5);
+    assert.ok(answer.answers.some(({ said }) => /GL_OUT_OF_MEMORY/.test(said)));
+    assert.ok(answer.answers.some(({ said }) => /FRAMEBUFFER/.test(said)));
+  });
+
+  test('a context that is lost while loading, while compiling and in a frame', async (t) => {
+    const opened = await open(t);
+    const answers = await opened.evaluate(async () => {
+      const expected = await window.expect('layered'), found = [];
+      for (let at = 1; at < 40; at += 6) { // each in a context of its own, with programs to compile
+        found.push({ at, ...(await window.play('layered', 'loss', at, expected)) });
+      }
+      return found;
+    });
+    t.diagnostic(`${answers.filter(({ hit }) => hit).length} losses; said: ${[...new Set(answers.map(({ said }) => said))].join(' | ')}`);
+    assert.ok(answers.filter(({ hit }) => hit).length >= 5);
+    for (const { at, errors, stays } of answers) {
+      assert.ok(!stays, `call ${at}: another picture afterwards`);
+      assert.deepEqual(errors.filter((sentence) => !/context was lost/.test(sentence)), [], `call ${at}: nothing else is said`);
+    }
+  });
+});
