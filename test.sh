@@ -24,19 +24,24 @@ else
 fi
 
 echo "== native, release"
-cmake --preset release -DBUILD_TESTING=ON >/dev/null
+cmake --preset release -DBUILD_TESTING=ON "-DVT_LONG_TESTS=$all" >/dev/null
 cmake --build --preset release
 
+# Side by side: linking for the web is work for one processor.
+web=
 if command -v emcmake >/dev/null; then
   echo "== web"
-  bash scripts/build-web.sh
+  bash scripts/build-web.sh &
+  web=$!
 else
   echo "== web: left out, emscripten is not installed"
 fi
-
 echo "== native, with address and undefined-behaviour sanitizers"
 cmake --preset asan "-DVT_LONG_TESTS=$all" >/dev/null
-cmake --build --preset asan
+asan=0
+cmake --build --preset asan || asan=$?
+if [ -n "$web" ]; then wait "$web"; fi
+if [ "$asan" -ne 0 ]; then exit "$asan"; fi
 
 echo "== tests, sanitizers"
 ctest --preset asan -j 2

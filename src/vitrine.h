@@ -439,9 +439,9 @@ VT_API void vtDestroyScene(vtScene* scene);
 
 /// Reads a whole file of at most `limit` bytes for the scene loader (buffers and pictures beside a .gltf). On
 /// success *bytes are from vtAllocate (or NULL of 0 bytes), and the loader frees them by vtFree. On failure
-/// the sentence in *error, if any, becomes a part of the loader's. The path is that of a file in the model's
-/// folder or in vtModelDef.root by its name; where links lead, and that it is a plain file, is for the
-/// function to look at.
+/// (vt_errorMemory where the file is larger) the sentence in *error, if any, becomes a part of the loader's.
+/// The path is that of a file in the model's folder or in vtModelDef.root by its name; where links lead, and
+/// that it is a plain file, is for the function to look at.
 typedef vtResult vtReadFileFcn(const char* path, size_t limit, uint8_t** bytes, size_t* size, void* userData,
                                vtError* error);
 
@@ -1050,13 +1050,15 @@ VT_API vtResult vtRenderer_DrawFloats(vtRenderer* renderer, const vtFrame* frame
                                       vtError* error);
 
 /// Exit directions of the last frame's last sample: 3 * width * height floats, top row first. Unit world
-/// directions; (0,0,0) where no event has turned the eye ray, (2,2,2) where the path was lost.
+/// directions; (0,0,0) where no surface turned the eye ray and it passed no thin wall (background, glass of
+/// index 1), (2,2,2) where the path was lost.
 VT_API vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtError* error);
 
 /// What became of the paths of the last frame's last sample: width * height words, top row first. The lowest
-/// byte is VT_PATH_BACKGROUND, VT_PATH_EXITED or VT_PATH_LOST, the second the number of events; VT_PATH_TIR
-/// is set where total internal reflection took part; with countReads the word above VT_PATH_READS_SHIFT is
-/// the number of texture reads, the first surface's included (0 for the kay techniques).
+/// byte is VT_PATH_BACKGROUND, VT_PATH_EXITED, VT_PATH_LOST or VT_PATH_OPAQUE; the next seven bits are the
+/// number of events; VT_PATH_WALL is set where the path passed a thin wall, VT_PATH_TIR where total internal
+/// reflection took part; with countReads the word above VT_PATH_READS_SHIFT is the number of texture reads,
+/// the first surface's included (0 for the kay techniques).
 VT_API vtResult vtRenderer_ReadStates(vtRenderer* renderer, uint32_t* states, vtError* error);
 
 VT_API vtRendererInfo vtRenderer_Info(const vtRenderer* renderer);

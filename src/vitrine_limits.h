@@ -14,7 +14,9 @@
 #define VT_PATH_EXITED 1
 #define VT_PATH_LOST 2
 #define VT_PATH_OPAQUE 3 // it ends on an opaque surface
-// The second byte of the state counts events; this bit is set where total internal reflection took part.
+// The next seven bits count events. The first of these is set where the path passed a thin wall, the second
+// where total internal reflection took part.
+#define VT_PATH_WALL 32768
 #define VT_PATH_TIR 65536
 // From this bit on texture reads are counted where the frame asks for it, up to VT_MAX_READS.
 #define VT_PATH_READS_SHIFT 17

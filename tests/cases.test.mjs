@@ -344,11 +344,6 @@ describe('files', { skip }, () => {
     for (const word of words) assert.ok(result.stderr.toString().includes(word), `'${word}' is not in: ${result.stderr}`);
   };
 
-  test('what reaches too far for ray tracing', { skip: !embree && 'built without Embree' }, () => {
-    draw([fileOf('big'), '-r', '20,20']);
-    refuses([fileOf('big'), '-r', '20,20', '-t', 'reference'], 'e+18', 'scale the scene down');
-  });
-
   test('files that are refused', () => {
     refuses([fileOf('u_zero.gltf'), '-r', '20,20'], 'u_zero.gltf', 'folder');
     refuses([write('half.glb', model([{ mesh: quad(), material: thin([1, 1, 1], { extensions: { KHR_materials_ior: { ior: 0.5 } } }) }])), '-r', '20,20'], 'half.glb', '0.5', 'ior');

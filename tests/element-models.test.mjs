@@ -78,8 +78,8 @@ function difference(a, b) {
 }
 
 describe('files in the element', { skip }, () => {
-  const files = {}, requests = [], complaints = [], missing = new Set(), delays = {};
-  let server, browser, page, folder, plain;
+  const files = {}, requests = [], missing = new Set(), delays = {};
+  let server, browser, page, folder, plain, complaints;
 
   before(async () => {
     mkdirSync(screenshots, { recursive: true });
@@ -100,16 +100,6 @@ describe('files in the element', { skip }, () => {
       else answerWithFile(site, pathname, response);
     });
     browser = await launch();
-    page = await openPage(browser, { viewport: { width: 300, height: 300 } });
-    page.on('pageerror', (error) => complaints.push(String(error)));
-    page.on('console', (message) => {
-      if (['error', 'warning'].includes(message.type()) && !/GPU stall|fallback to software|404/.test(message.text())) complaints.push(message.text());
-    });
-    await page.addInitScript(() => {
-      window.failures = [];
-      document.addEventListener('error', (event) => event.target.localName === 'vitrine-viewer' && window.failures.push(event.detail.sourceError.message), true);
-      document.addEventListener('securitypolicyviolation', (event) => window.failures.push(event.violatedDirective));
-    });
   });
   after(async () => {
     await browser?.close();
@@ -118,7 +108,20 @@ describe('files in the element', { skip }, () => {
   });
   beforeEach(async () => {
     missing.clear();
-    await page.goto(`${server.address}/page.html`); // what was loaded before is loaded no more
+    await page?.close(); // what it still loads ends with it, and tells that to nobody
+    page = await openPage(browser, { viewport: { width: 300, height: 300 } });
+    complaints = [];
+    const ofThisPage = complaints;
+    page.on('pageerror', (error) => ofThisPage.push(String(error)));
+    page.on('console', (message) => {
+      if (['error', 'warning'].includes(message.type()) && !/GPU stall|fallback to software|404/.test(message.text())) ofThisPage.push(message.text());
+    });
+    await page.addInitScript(() => {
+      window.failures = [];
+      document.addEventListener('error', (event) => event.target.localName === 'vitrine-viewer' && window.failures.push(event.detail.sourceError.message), true);
+      document.addEventListener('securitypolicyviolation', (event) => window.failures.push(event.violatedDirective));
+    });
+    await page.goto(`${server.address}/page.html`);
     requests.length = 0;
   });
 

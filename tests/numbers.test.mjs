@@ -131,6 +131,7 @@ describe('sizes and places', { skip }, () => {
   for (const exponent of long ? decades(-18, 18, 1) : [-18, -12, 12, 18]) {
     test(`vertices of 1e${exponent}`, () => isSame(agrees([glass(scaled(round, 10 ** exponent))]).directions));
   }
+  test('big.glb, to 1e18', () => agrees([join(here, 'cases/big.glb')]));
   for (const exponent of long ? decades(-18, 18, 3) : [-12]) {
     for (const technique of long ? ['wyman', 'layered', 'oliveira', 'single', 'kay-thickness'] : ['wyman']) {
       test(`vertices of 1e${exponent}, ${technique}`, () => isSame(draw([glass(scaled(round, 10 ** exponent))], technique).directions, technique, 0.97));

@@ -167,7 +167,7 @@ static vtResult readPlain(const char* path, size_t limit, uint8_t** bytes, size_
     if (!S_ISREG(status.st_mode)) {
         result = vtFail(error, vt_errorFile, "it is no plain file");
     } else if ((uint64_t)status.st_size > limit) {
-        result = vtFail(error, vt_errorFile, "it has %lld bytes, of which %zu are left to the model",
+        result = vtFail(error, vt_errorMemory, "it has %lld bytes, of which %zu are left to the model",
                         (long long)status.st_size, limit);
     } else if ((stream = fdopen(file, "rb")) == NULL) {
         result = vtFail(error, vt_errorFile, "%s", strerror(errno));

@@ -49,6 +49,7 @@ struct Path {
 #ifdef WITH_ROUGH
     vec3 seen; // the same of those that are opaque
 #endif
+    bool isThroughWall; // it has passed a thin wall
 #endif
 };
 
@@ -75,7 +76,7 @@ Path startPath(vec3 position, vec3 direction)
                 , position, direction, FIRST_SHARE(0.0) NO_LOBE AND_FOOTPRINT
 #endif
 #ifdef WITH_LOOKS
-                , vec3(0.0) NO_LOBE
+                , vec3(0.0) NO_LOBE, false
 #endif
                 );
 }
@@ -114,6 +115,9 @@ bool setAside(inout Path p, vec3 direction, float share, Media media)
 uint pathState(Path p, int status)
 {
     uint state = uint(status + 256 * p.events + (p.reflected ? VT_PATH_TIR : 0));
+#ifdef WITH_LOOKS
+    state |= p.isThroughWall ? uint(VT_PATH_WALL) : 0u;
+#endif
 #ifdef COUNT_READS
     state |= uint(min(g_reads, VT_MAX_READS)) << VT_PATH_READS_SHIFT;
 #endif

@@ -82,6 +82,7 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeti
         beside = vec3(0.0);
     }
     bool isEvent = !isStraight && strongest(share) > 0.0;
+    p.isThroughWall = p.isThroughWall || (isThin && strongest(share) > 0.0);
     if (isEvent && isLast) {
         through = mirrored = vec3(0.0);
         status = VT_PATH_LOST;

@@ -18,7 +18,7 @@ Path readPath(uvec4 path)
     vec2 middle = unpackHalf2x16(light.y);
     Path p = startPath(uintBitsToFloat(readPixel(u_ends, u_size.xy).xyz), uintBitsToFloat(path.xyz));
     p.transmittance = vec3(unpackHalf2x16(light.x), middle.x);
-    p.events = int(path.w >> 8) & 255;
+    p.events = int(path.w >> 8) & 127;
     p.reflected = (int(path.w) & VT_PATH_TIR) != 0;
     p.asidePosition = uintBitsToFloat(aside.xyz);
     p.asideDirection = unpackNormal(aside.w);

@@ -7,7 +7,7 @@ uniform usampler2DArray u_layerNormals;
 vec3 analysisColor(uvec4 path)
 {
     int state = int(path.w);
-    int events = (state >> 8) & 255;
+    int events = (state >> 8) & 127;
     if (state == VT_PATH_BACKGROUND) {
         return vec3(1.0);
     }

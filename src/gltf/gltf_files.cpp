@@ -112,8 +112,9 @@ bool readExternal(Loader& loader, const char* what, const std::string& uri, std:
     const Block<uint8_t> owned(contents);
     if (result != vt_ok) {
         const std::string why = error.message[0] != '\0' ? std::string(" (") + error.message + ")" : "";
-        return loader.fail(result, "its %s '%s' cannot be read%s; put that file beside the model", what,
-                           shown.c_str(), why.c_str());
+        return loader.fail(result, "its %s '%s' cannot be read%s; %s", what, shown.c_str(), why.c_str(),
+                           result == vt_errorMemory ? "allow it more memory with --max-memory (vtLimits)"
+                                                    : "put that file beside the model");
     }
     if (!loader.spend(size, std::string("its ") + what + " '" + shown + "'")) {
         return false;

@@ -45,11 +45,10 @@ void Loader::note(const char* format, ...)
 bool Loader::spend(uint64_t bytes, const std::string& what)
 {
     if (bytes > left.memory) {
-        return fail(
-            vt_errorMemory,
-            "%s takes %llu bytes, but all that is read of a file may take %llu; simplify "
-            "it" VT_ALLOW("--max-memory"),
-            what.c_str(), (unsigned long long)bytes, (unsigned long long)limits.memory);
+        return fail(vt_errorMemory,
+                    "%s takes %llu bytes, but all that is read of a file may take %llu; simplify "
+                    "it" VT_ALLOW("--max-memory"),
+                    what.c_str(), (unsigned long long)bytes, (unsigned long long)limits.memory);
     }
     left.memory -= bytes;
     return true;

@@ -5,8 +5,8 @@
 namespace vtGltf
 {
 
-// Bytes, estimated from a few measured files (nlohmann-json 3.11, tinygltf 2.7): of an object with the struct that
-// is made of it, of an array, of a text, of a key beside its text, of any value.
+// Bytes, estimated from a few measured files (nlohmann-json 3.11, tinygltf 2.7): of an object with the struct
+// that is made of it, of an array, of a text, of a key beside its text, of any value.
 static const uint64_t objectBytes = 640, arrayBytes = 64, textBytes = 48, keyBytes = 96, valueBytes = 24;
 
 bool checkStructure(Loader& loader, Bytes text)
@@ -30,11 +30,10 @@ bool checkStructure(Loader& loader, Bytes text)
         }
     }
     return bytes <= most ||
-           loader.fail(
-               vt_errorMemory,
-               "the objects and lists in its JSON take more than %llu bytes; simplify "
-               "it" VT_ALLOW("--max-memory, of which they may take a 32nd"),
-               (unsigned long long)most);
+           loader.fail(vt_errorMemory,
+                       "the objects and lists in its JSON take more than %llu bytes; simplify "
+                       "it" VT_ALLOW("--max-memory, of which they may take a 32nd"),
+                       (unsigned long long)most);
 }
 
 } // namespace vtGltf

@@ -118,11 +118,10 @@ vtResult vtCheckPicture(const void* bytes, size_t size, const char* name, const 
         *pixels = count;
     }
     if (count > most.pixels) {
-        return vtFail(
-            error, vt_errorFormat,
-            "picture '%.300s' is %ld x %ld pixels, but at most %llu are read; scale it "
-            "down" VT_ALLOW("--max-pixels"),
-            file.name, header.width, header.height, (unsigned long long)most.pixels);
+        return vtFail(error, vt_errorFormat,
+                      "picture '%.300s' is %ld x %ld pixels, but at most %llu are read; scale it "
+                      "down" VT_ALLOW("--max-pixels"),
+                      file.name, header.width, header.height, (unsigned long long)most.pixels);
     }
     if (needed > most.memory) {
         return vtFail(

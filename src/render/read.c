@@ -127,7 +127,7 @@ vtResult vtRenderer_ReadDirections(vtRenderer* renderer, float* directions, vtEr
         const uint32_t* from = paths + 4 * i;
         float* to = directions + 3 * i;
         const bool lost = (from[3] & 255u) == VT_PATH_LOST;
-        if (!lost && (from[3] >> 8 & 255u) > 0) { // else it goes on as it came: glass of index 1, a thin wall
+        if (!lost && ((from[3] >> 8 & 127u) > 0 || (from[3] & VT_PATH_WALL) != 0)) { // not of index 1
             memcpy(to, from, 3 * sizeof(float));
         } else {
             to[0] = to[1] = to[2] = lost ? 2.0f : 0.0f;

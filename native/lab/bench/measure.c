@@ -129,7 +129,7 @@ static void countReads(const uint32_t* states, size_t count, vtBenchRow* row)
     for (size_t i = 0; i < count; ++i) {
         const bool glass = (states[i] & 255u) != VT_PATH_BACKGROUND;
         paths += glass;
-        events += glass ? states[i] >> 8 & 255u : 0;
+        events += glass ? states[i] >> 8 & 127u : 0;
         reads += states[i] >> VT_PATH_READS_SHIFT;
     }
     row->readsAPath = paths > 0 ? reads / (double)paths : 0.0;

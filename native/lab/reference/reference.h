@@ -43,9 +43,10 @@ typedef struct vtReferenceDef {
 /// reflection: the path that the real-time techniques imitate.
 typedef struct vtReferenceImage {
     int width, height;
-    float* directions; ///< 3 a pixel: unit direction at the path's end, (2,2,2) lost, (0,0,0) without events
-    uint8_t* events;   ///< surfaces where paths refract or reflect; 0: nothing but background or opaque
-    uint8_t* states;   ///< VT_PATH_BACKGROUND, VT_PATH_EXITED, VT_PATH_LOST or VT_PATH_OPAQUE
+    float* directions;    ///< 3 a pixel: unit direction at the path's end, (2,2,2) lost, (0,0,0) where
+                          ///< vtRenderer_ReadDirections has it
+    uint8_t* events;      ///< surfaces where paths refract or reflect; 0: nothing but background or opaque
+    uint8_t* states;      ///< VT_PATH_BACKGROUND, VT_PATH_EXITED, VT_PATH_LOST or VT_PATH_OPAQUE
     uint8_t* reflections; ///< 1 where total internal reflection took part
     float* radiance;      ///< 3 a pixel, linear, after exposure, mean over the samples; a lost path shows
                           ///< the environment in its last direction. NULL without an environment. Where

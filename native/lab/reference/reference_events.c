@@ -454,6 +454,7 @@ bool vtMeetGlass(const vtReference* reference, const vtPathRules* rules, vtRefer
         beside.weight = (vtVec3){0.0f, 0.0f, 0.0f};
     }
     path->reflected |= ways.total;
+    path->throughWall |= crossing.thin && seen->passes * seen->coverage > 0.0f;
     const bool passes = seen->passes * seen->coverage + (together ? 1.0f - seen->coverage : 0.0f) > 0.0f;
     if (!passes && seen->coverage >= 1.0f) {
         path->end = *vtPlace_Surface(place)->hit;

@@ -71,11 +71,12 @@ typedef struct vtReferencePath {
     uint8_t events;
     uint8_t state; ///< VT_PATH_..., once it has ended
     bool ended, reflected;
-    bool nudged;   ///< see vtNudge
-    bool parted;   ///< it has light of one spread only
-    bool mirrored; ///< what the surface ahead mirrors of it has branched off already
-    float spread;  ///< of a wavelength, see reference_spectrum.h
-    uint32_t key;  ///< what it draws its chances by
+    bool throughWall; ///< it has passed a thin wall
+    bool nudged;      ///< see vtNudge
+    bool parted;      ///< it has light of one spread only
+    bool mirrored;    ///< what the surface ahead mirrors of it has branched off already
+    float spread;     ///< of a wavelength, see reference_spectrum.h
+    uint32_t key;     ///< what it draws its chances by
 } vtReferencePath;
 
 /// Paths from the eye, and those that branch off from them.

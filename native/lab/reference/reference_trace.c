@@ -77,7 +77,7 @@ static size_t pixelIndex(const Job* job, int column, int row)
 static void storePath(vtReferenceImage* image, size_t pixel, const vtReferencePath* path)
 {
     vtVec3 d = path->direction;
-    if (path->events == 0 && path->state != VT_PATH_LOST) {
+    if (path->events == 0 && !path->throughWall && path->state != VT_PATH_LOST) {
         d = (vtVec3){0.0f, 0.0f, 0.0f};
     } else if (path->state == VT_PATH_LOST) {
         d = (vtVec3){2.0f, 2.0f, 2.0f};
