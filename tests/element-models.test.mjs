@@ -108,6 +108,10 @@ describe('files in the element', { skip }, () => {
   });
   beforeEach(async () => {
     missing.clear();
+    await openAnew();
+  });
+
+  async function openAnew() {
     await page?.close(); // what it still loads ends with it, and tells that to nobody
     page = await openPage(browser, { viewport: { width: 300, height: 300 } });
     complaints = [];
@@ -123,7 +127,7 @@ describe('files in the element', { skip }, () => {
     });
     await page.goto(`${server.address}/page.html`);
     requests.length = 0;
-  });
+  }
 
   const said = () => page.evaluate(() => a.shadowRoot.querySelector('[part=message]').textContent);
 
@@ -373,7 +377,7 @@ describe('files in the element', { skip }, () => {
   test('the smaller core that comes between a file with animations and the larger core', async (t) => {
     Object.assign(delays, { '/vitrine-core.wasm': 500, '/vitrine-full.wasm': 1500 });
     t.after(() => Object.keys(delays).forEach((name) => delete delays[name]));
-    await page.goto(`${server.address}/page.html?slow`);
+    await openAnew();
     await show('moving.glb', moving());
     assert.deepEqual(await page.evaluate(() => [a.availableAnimations, a.duration]), [['slide', 'grow'], 2]);
   });

@@ -819,6 +819,30 @@ describe('the element', { skip }, () => {
     assert.equal(await message(page), '');
   });
 
+  test('a model that is asked for again while another one is being built', async (t) => {
+    const init = () => {
+      const usual = window.setTimeout;
+      window.held = [];
+      window.setTimeout = (act, after, ...values) => (window.holds && values.length === 1 ? window.held.push(() => act(...values)) : usual(act, after, ...values));
+    };
+    const page = await open(t, '<vitrine-viewer id="a" src="sphere"></vitrine-viewer>', { init });
+    const before = await shot(page);
+    await page.evaluate(() => {
+      window.holds = true; // the slices in which it is built
+      a.src = 'knot';
+    });
+    await page.waitForFunction(() => window.held.length > 0);
+    await page.evaluate(() => (a.src = 'sphere'));
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await page.evaluate(() => {
+      window.holds = false;
+      window.held.splice(0).forEach((act) => act());
+    });
+    await page.waitForFunction(() => a.loaded);
+    await quiet(page);
+    assert.equal(difference(before, await shot(page)), 0);
+  });
+
   test('pictures and cameras of a model', async (t) => {
     const page = await open(t, '<vitrine-viewer id="a" src="/red.glb"></vitrine-viewer>');
     const facts = await page.evaluate(async () => {

@@ -268,8 +268,7 @@ bool makeMaterials(Loader& loader, std::vector<uint32_t>* materialOf)
         return false;
     }
     scene->materialCount = (uint32_t)materials.size();
-    // A page's browser decodes the pictures, and has bounds of its own.
-    for (size_t i = 0; VT_WITH_FILES && i < materials.size() && !scene->allGlass; ++i) {
+    for (size_t i = 0; i < materials.size() && !scene->allGlass; ++i) {
         if (used[i] >= 0 && !checkMaps(loader, loader.model.materials[(size_t)used[i]])) {
             return false;
         }

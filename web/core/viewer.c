@@ -252,6 +252,9 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_SetShaders(vtViewer* viewer, const cha
     return sentence(viewer, vtRenderer_SetLaterShaders(viewer->renderer, file, &viewer->error));
 }
 
+/// Of samples: the frame cannot be drawn.
+enum { failed = VT_MAX_SAMPLES + 1 };
+
 EMSCRIPTEN_KEEPALIVE int vtViewer_Tick(vtViewer* viewer)
 {
     vtFrame frame = viewer->frame;
@@ -270,7 +273,7 @@ EMSCRIPTEN_KEEPALIVE int vtViewer_Tick(vtViewer* viewer)
     viewer->changed = false;
     viewer->sample = sample + 1;
     if (vtRenderer_Draw(viewer->renderer, &frame, &viewer->error) != vt_ok) {
-        viewer->sample = VT_MAX_SAMPLES;
+        viewer->sample = failed;
         return -1;
     }
     ++viewer->drawCount;
@@ -283,7 +286,7 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_Check(vtViewer* viewer)
 {
     const vtResult result =
         vtRenderer_CheckDrawn(viewer->renderer, "drawing; a smaller picture may fit", &viewer->error);
-    viewer->sample = result == vt_ok ? viewer->sample : VT_MAX_SAMPLES;
+    viewer->sample = result == vt_ok ? viewer->sample : failed;
     return sentence(viewer, result);
 }
 
@@ -295,7 +298,8 @@ EMSCRIPTEN_KEEPALIVE const uint8_t* vtViewer_Image(vtViewer* viewer, int width, 
     frame.width = width;
     frame.height = height;
     // The canvas's own samples are gone on with; more than some are not worth the wait.
-    const bool isCanvas = !viewer->changed && width == viewer->frame.width && height == viewer->frame.height;
+    const bool isCanvas = !viewer->changed && viewer->sample != failed && width == viewer->frame.width &&
+                          height == viewer->frame.height;
     const int enough = isCanvas && viewer->sample > 16 ? viewer->sample : 16;
     frame.samples = frame.samples < enough ? frame.samples : enough;
     if (isCanvas && frame.samples > 1) {

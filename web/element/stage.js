@@ -85,9 +85,14 @@ export class Stage {
     if (this.#visible) this.#beSeen();
   }
 
-  /** Is there an animation in a file that is shown, or is about to be? */
+  /** What is shown, or is about to be. */
+  get latest() {
+    return { ...this.scene, ...(this.#coming && { model: this.#coming }), ...this.#pending };
+  }
+
+  /** Is there an animation in the files of that? */
   get isAnimated() {
-    return isAnimated(this.scene.model) || isAnimated(this.#pending.model);
+    return isAnimated(this.latest.model);
   }
 
   get isVisible() {
@@ -125,6 +130,7 @@ export class Stage {
   /** Shows a source now, or as soon as there is a viewer. @param {import('./loading.js').Source|import('./loading.js').Scene} source */
   show(kind, source) {
     if (kind === 'model') this.#coming = null;
+    delete this.#pending[kind];
     if (this.#viewer === null || this.#viewer.isLost || this.#unfilled.includes(kind) || (isAnimated(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
     else this.#upload(kind, source);
   }
@@ -566,7 +572,7 @@ export class Stage {
         if (!gl.isContextLost()) this.#tellRefusal(problem);
         return;
       }
-      this.#isUnchecked = false;
+      this.#isUnchecked &&= this.#isRefining; // its later samples have targets of their own
       this.#viewer.showOn(this.#host.querySelector('canvas'));
       this.#viewer.leave();
       const milliseconds = performance.now() - start;

@@ -397,7 +397,6 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const { src, loading, environmentImage, skyboxImage } = this.#values;
     if (!this.#isOpen || src === undefined || (loading !== 'eager' && !this.#wasSeen)) return;
     loadCore(VitrineViewer, this.#needsFull).catch(() => {}); // said below
-    const { scene } = this.#stage;
     const model = this.#wish;
     if (model.url === '') {
       this.#isLoaded = this.#hasFrame = false;
@@ -405,10 +404,10 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
       this.#animate([]);
       this.#showPoster();
     }
-    if (scene.model?.url !== model.url) this.#isLoaded = false;
+    if (this.#stage.scene.model?.url !== model.url) this.#isLoaded = false;
     for (const cause of ['model', 'environment', 'background', 'pictures']) this.#say(cause, '');
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
-    if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, scene))) return;
+    if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, this.#stage.latest))) return;
     try {
       const loaded = await loadCore(VitrineViewer, this.#needsFull);
       await ownTask();
