@@ -3,7 +3,7 @@
 #   ./test.sh                 about a quarter of an hour
 #   ./test.sh --all           also what is long: nothing left out under sanitizers, static analysis, coverage, deliberate
 #                             faults that tests must see, ten minutes of hostile input, films, job files of schedulers,
-#                             Firefox, a minute of animated glass, the browser's picture against its rivals'
+#                             Firefox, thousands of frames, a minute of animated glass, the browser's picture against its rivals'
 #   ./test.sh --fuzz SECONDS  hostile input alone, for so long
 set -eu
 cd "$(dirname "$0")"
@@ -62,6 +62,8 @@ if $all; then
   if command -v emcmake >/dev/null; then
     echo "== Firefox"
     node --test tests/firefox.test.mjs
+    echo "== thousands of frames on a page, 200 programs at once"
+    node --test tests/long.test.mjs
     echo "== a minute of animated glass"
     node --test tests/playing.test.mjs
     echo "== the browser's picture against its rivals'"

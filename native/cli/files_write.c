@@ -179,8 +179,10 @@ vtResult vtWritePrinted(const char* path, vtPrintFcn* print, const void* data, v
         return vtFail(error, vt_errorMemory, "file '%s': out of memory", path);
     }
     print(data, memory);
-    fclose(memory);
-    const vtResult result = vtWriteFile(path, text, size, error);
+    const bool isWhole = ferror(memory) == 0;
+    const bool isThere = fclose(memory) == 0 && isWhole; // it flushes, which takes memory
+    const vtResult result = isThere ? vtWriteFile(path, text, size, error)
+                                    : vtFail(error, vt_errorMemory, "file '%s': out of memory", path);
     free(text);
     return result;
 }

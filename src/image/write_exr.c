@@ -77,10 +77,24 @@ static exr_result_t writeChunk(const Writer* writer, const float* pixels, int ch
     return code;
 }
 
+static void* allocate(size_t size)
+{
+    return vtAllocate(1, size);
+}
+
+/// OpenEXR's own words, which are meant for standard error; vtEncodeExr has a sentence.
+static void drop(exr_const_context_t context, exr_result_t code, const char* message)
+{
+    (void)context, (void)code, (void)message;
+}
+
 static exr_result_t writeExr(Writer* writer, const float* pixels, int channels, int width, int height,
                              const char* comment)
 {
     exr_context_initializer_t start = {.size = sizeof start,
+                                       .error_handler_fn = drop,
+                                       .alloc_fn = allocate,
+                                       .free_fn = vtFree,
                                        .user_data = writer,
                                        .write_fn = writeBytes,
                                        .zip_level = -2,

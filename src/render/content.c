@@ -386,7 +386,11 @@ vtResult vtRenderer_GetInstance(vtRenderer* renderer, vtInstanceId id, vtInstanc
         return result;
     }
     const vtObject* object = &renderer->scene.instances[at];
-    *def = (vtInstanceDef){.geometry = vtRenderer_SceneGeometry(renderer, object->mesh),
+    const vtGeometryId geometry = vtRenderer_SceneGeometry(renderer, object->mesh);
+    if (geometry.index1 == 0) {
+        return vtFail(error, vt_errorMemory, "instance: out of memory for its geometry's handle");
+    }
+    *def = (vtInstanceDef){.geometry = geometry,
                            .material = renderer->scene.materials[at],
                            .toWorld = object->toWorld,
                            .priority = object->priority};

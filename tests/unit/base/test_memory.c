@@ -4,61 +4,24 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "exr_cases.h"
+#include "failing_memory.h"
 #include "image/image.h"
 #include "image/pfm.h"
 #include "png_cases.h"
 #include "testing.h"
 
-static struct {
-    long calls, live; ///< allocations since the last call of `attempt`; blocks that are held now
-    long failing;     ///< number of the allocation that fails; -1: none
-    bool lasting;     ///< and all after it
-} memory = {.failing = -1};
-
 void* testAllocate(size_t size);
 void testFree(void* block);
 
-static bool isOut(void)
-{
-    const long call = memory.calls++;
-    return memory.failing >= 0 && (memory.lasting ? call >= memory.failing : call == memory.failing);
-}
-
 void* testAllocate(size_t size)
 {
-    void* block = isOut() ? NULL : malloc(size > 0 ? size : 1);
-    memory.live += block != NULL;
-    return block;
+    return takeBlock(size);
 }
 
 void testFree(void* block)
 {
-    memory.live -= block != NULL;
-    free(block);
+    giveBlock(block);
 }
-
-static void* allocate(size_t size, void* userData)
-{
-    assert_ptr_equal(userData, &memory);
-    assert_true(size > 0);
-    return testAllocate(size);
-}
-
-static void* reallocate(void* block, size_t size, void* userData)
-{
-    assert_ptr_equal(userData, &memory);
-    assert_true(block != NULL && size > 0);
-    return isOut() ? NULL : realloc(block, size);
-}
-
-static void release(void* block, void* userData)
-{
-    assert_ptr_equal(userData, &memory);
-    assert_non_null(block);
-    testFree(block);
-}
-
-static const vtAllocator counting = {allocate, reallocate, release, &memory};
 
 // ------------------------------------------------------------------------------------------------- calls
 
@@ -140,6 +103,21 @@ static vtResult writing(vtError* error)
     size_t size = 0;
     const vtResult result = vtEncodePng(pixels, 3, side, side, &bytes, &size, error);
     assert_true((result == vt_ok) == (bytes != NULL) && (result == vt_ok) == (size > sizeof pixels));
+    vtFree(bytes);
+    return result;
+}
+
+static vtResult writingFloats(vtError* error)
+{
+    enum { side = 24 };
+    static float pixels[3 * side * side];
+    uint8_t* bytes = NULL;
+    size_t size = 0;
+    vtResult result = vtEncodeExr(pixels, 3, side, side, "x", &bytes, &size, error);
+    assert_true((result == vt_ok) == (bytes != NULL));
+    vtFree(bytes);
+    bytes = NULL;
+    result = result == vt_ok ? vtEncodeHdr(pixels, side, side, "x", &bytes, &size, error) : result;
     vtFree(bytes);
     return result;
 }
@@ -229,7 +207,7 @@ static vtResult readFile(const char* path, size_t limit, uint8_t** bytes, size_t
     (void)userData, (void)limit, (void)error;
     const Bytes file = strstr(path, ".png") != NULL ? png16 : (Bytes){model.data, 104};
     const long failing = memory.failing;
-    memory.failing = -1;
+    failNone();
     *bytes = vtAllocate(file.size, 1);
     memory.failing = failing;
     memcpy(*bytes, file.data, file.size);
@@ -293,12 +271,10 @@ typedef vtResult Call(vtError* error);
 static bool attempt(Call* call, long failing, bool lasting, vtResult* result)
 {
     vtError error = {0};
-    memory.calls = 0;
-    memory.failing = failing;
-    memory.lasting = lasting;
     const long before = memory.live;
+    failFrom(failing, lasting);
     *result = call(&error);
-    memory.failing = -1;
+    failNone();
     if (*result != error.result || memory.live != before) {
         fail_msg("allocation %ld: result %d, error %d '%s', %ld blocks are left", failing, *result,
                  error.result, error.message, memory.live - before);
@@ -328,7 +304,8 @@ static long failEach(Call* call)
 static void memoryThatIsOutIsAResult(void** state)
 {
     (void)state;
-    Call* const calls[] = {shapes, reliefs, environments, pictures, writing, append, update, trace, models};
+    Call* const calls[] = {shapes,        reliefs, environments, pictures, writing,
+                           writingFloats, append,  update,       trace,    models};
     long all = 0;
     for (size_t i = 0; i < sizeof calls / sizeof calls[0]; ++i) {
         const long points = failEach(calls[i]);
@@ -358,11 +335,9 @@ static void deepModelsNeedNoMemoryToGo(void** state)
     assert_int_equal(vtLoadScene(&def, &scene, &error), vt_errorFormat);
     calls = memory.calls;
     for (long failing = calls - 10; failing < calls; ++failing) {
-        memory.calls = 0;
-        memory.failing = failing;
-        memory.lasting = true;
+        failFrom(failing, true);
         result = vtLoadScene(&def, &scene, &error);
-        memory.failing = -1;
+        failNone();
         assert_true(result == vt_errorFormat || result == vt_errorMemory);
     }
     free(text);

@@ -1,6 +1,7 @@
 // A long run: frames of changing size, technique and scene, renderers and contexts that come and go. The same
 // frame is the same picture whatever was drawn before, no GL error, no GL object is left, memory is flat.
-// VITRINE_FRAMES: how many frames (300). VITRINE_CURVE: a file for "frame resident-MB GL-objects" lines.
+// VITRINE_FRAMES: how many frames (300; 10,000 where VITRINE_LONG is 1). VITRINE_CURVE: a file for "frame
+// resident-MB GL-objects" lines. Twenty rows of a table are printed: docs/robustness.md has them.
 #include <unistd.h>
 
 #include "faulty_gl.h"
@@ -22,6 +23,15 @@ static int readNumber(const char* name, int usual)
 {
     const char* text = getenv(name);
     return text != NULL ? atoi(text) : usual;
+}
+
+static int usualFrames(void)
+{
+#ifdef __SANITIZE_ADDRESS__ // some ten times slower
+    return 300;
+#else
+    return readNumber("VITRINE_LONG", 0) == 1 ? 10000 : 300;
+#endif
 }
 
 /// Of this process, that is not shared with others' pages on disk.
@@ -118,7 +128,7 @@ static void everyFrameIsAsBefore(void** state)
 {
     (void)state;
     Run run = {.which = -1};
-    const int frames = readNumber("VITRINE_FRAMES", 300);
+    const int frames = readNumber("VITRINE_FRAMES", usualFrames());
     const char* path = getenv("VITRINE_CURVE");
     FILE* curve = path != NULL ? fopen(path, "w") : NULL;
     double early = 0.0, late = 0.0;
@@ -127,6 +137,9 @@ static void everyFrameIsAsBefore(void** state)
         drawNext(&run, i);
         if (i == frames / 3 || i == frames - 1) {
             *(i == frames - 1 ? &late : &early) = residentMegabytes();
+        }
+        if ((i + 1) % (frames / 20 + (frames < 20)) == 0) {
+            print_message("| %d | %.1f | %d |\n", i + 1, residentMegabytes(), objectsAlive());
         }
         if (curve != NULL && i % (frames / 200 + 1) == 0) {
             fprintf(curve, "%d %.2f %d\n", i, residentMegabytes(), objectsAlive());
