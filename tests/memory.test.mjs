@@ -51,7 +51,7 @@ async function failEach(args) {
   assert.equal(whole.code, 0, whole.error);
   assert.ok(whole.allocations > 5, `${whole.allocations} allocations`);
   const runs = ['alone', 'lasting'].flatMap((kind, i) =>
-    Array.from({ length: whole.allocations }, (_, n) => [kind, n]).filter(([, n]) => isLong || n % 8 === 4 * i));
+    Array.from({ length: whole.allocations }, (_, n) => [kind, n]).filter(([, n]) => isLong || n % 24 === 12 * i));
   const faults = [];
   const work = async () => {
     for (let next = runs.shift(); next !== undefined; next = runs.shift()) {

@@ -11,6 +11,19 @@ enum { small = 24 };
 // ------------------------------------------------------------------------------------------------- cases
 
 /// What a picture may ask of the driver beside glass.
+/// VITRINE_LONG: nothing is left out.
+static bool isLong(void)
+{
+    const char* text = getenv("VITRINE_LONG");
+    return text != NULL && strcmp(text, "1") == 0;
+}
+
+/// Of all faults, each so many-th is tried.
+static int faultStep(void)
+{
+    return isLong() ? 1 : 4;
+}
+
 typedef struct Case {
     const char* name;
     vtTechnique technique;

@@ -84,7 +84,8 @@ static void comparePictures(Fixture* fixture, const vtReference* reference, cons
     vtDestroyReferenceImage(&image);
 }
 
-static void checkScene(Fixture* fixture, vtScene* scene, const vtGround* ground, vtFrame frame)
+static void checkScene(Fixture* fixture, vtScene* scene, const vtGround* ground, vtFrame frame,
+                       bool withPicture)
 {
     vtEnvironment studio;
     vtReference* reference;
@@ -96,31 +97,33 @@ static void checkScene(Fixture* fixture, vtScene* scene, const vtGround* ground,
     assert_ok(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error), error);
     assert_ok(vtCreateReference(scene, &reference, &error), error);
     compareMaps(fixture, reference, &frame, ground, &studio);
-    comparePictures(fixture, reference, &frame, ground, &studio);
+    if (withPicture) { // for which the reference follows its photons again
+        comparePictures(fixture, reference, &frame, ground, &studio);
+    }
     vtDestroyReference(reference);
     vtDestroyScene(scene);
 }
 
 static const vtVec3 one = {1.0f, 1.0f, 1.0f}, middle = {0.0f, 0.0f, 0.0f};
 
-static void checkShape(Fixture* fixture, const char* shape)
+static void checkShape(Fixture* fixture, const char* shape, bool withPicture)
 {
     const vtGround ground = sunnyGround();
     const vtMaterial glass = vtDefaultMaterial();
     vtScene scene = {0};
     addShape(&scene, shape, &glass, one, middle);
-    checkScene(fixture, &scene, &ground, viewFromAbove());
+    checkScene(fixture, &scene, &ground, viewFromAbove(), withPicture);
 }
 
 static void theGroundBelowABall(void** state)
 {
-    checkShape(*state, "sphere");
+    checkShape(*state, "sphere", false);
 }
 
 #ifndef __SANITIZE_ADDRESS__ // it takes minutes then, and goes the same ways
 static void theGroundBelowAGoblet(void** state)
 {
-    checkShape(*state, "goblet");
+    checkShape(*state, "goblet", true);
 }
 
 /// A ball of glass and a matt one by two lamps and a sun.
@@ -139,7 +142,7 @@ static void theGroundByLamps(void** state)
                                .color = {2.0f, 2.5f, 3.0f},
                                .innerCone = 0.3f,
                                .outerCone = 0.6f});
-    checkScene(*state, &scene, &ground, viewFromAbove());
+    checkScene(*state, &scene, &ground, viewFromAbove(), false);
 }
 
 /// A ball and a cube of glass before a wall and a matt ball of many triangles, seen without the ground.
@@ -155,7 +158,7 @@ static void lightOnAWall(void** state)
     addBox(&scene, &glass, (vtVec3){0.3f, 0.3f, 0.3f}, (vtVec3){0.6f, 0.0f, 0.2f});
     addShape(&scene, "sphere", &matt, (vtVec3){0.4f, 0.4f, 0.4f}, (vtVec3){-0.6f, -0.5f, -0.6f});
     frame.view = (vtView){{0.6f, 0.5f, 3.4f}, {0.0f, -0.1f, -1.0f}, 36.0f};
-    checkScene(*state, &scene, &ground, frame);
+    checkScene(*state, &scene, &ground, frame, true);
 }
 #endif
 

@@ -117,12 +117,12 @@ static void memoryThatIsNotThere(void** state)
         }
         begin(&play, &cases[i]);
         for (size_t k = 0; k < sizeof calls / sizeof calls[0]; ++k) {
-            failEach(&play, calls[k], stride, &faults);
+            failEach(&play, calls[k], stride * faultStep(), &faults);
         }
         end(&play);
     }
     print_message("%d faults\n", faults);
-    assert_true(faults > 400 / stride);
+    assert_true(faults > 400 / (stride * faultStep()));
     assert_int_equal(objectsAlive(), 0);
 }
 

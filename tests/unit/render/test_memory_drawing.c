@@ -39,13 +39,6 @@ static bool failAt(Play* play, long failing, bool lasting)
     return failed;
 }
 
-/// VITRINE_LONG: nothing is left out.
-static bool isLong(void)
-{
-    const char* text = getenv("VITRINE_LONG");
-    return text != NULL && strcmp(text, "1") == 0;
-}
-
 /// Every allocation, or each `step`-th, alone, and some with all that follow.
 static long failEach(Play* play, long step)
 {
@@ -69,11 +62,11 @@ static void picturesWithoutMemory(void** state)
             continue;
         }
         begin(&play, &cases[i]);
-        faults += failEach(&play, stride);
+        faults += failEach(&play, stride * faultStep());
         end(&play);
     }
     print_message("%ld allocations failed\n", faults);
-    assert_true(faults > 700 / stride);
+    assert_true(faults > 700 / (stride * faultStep()));
 }
 
 // --------------------------------------------------------------------------------------------- changes
