@@ -92,6 +92,9 @@ const cssProperties = [
   { name: '--max-hotspot-opacity', description: 'Of the others; 1.' },
 ];
 
+/** Of properties that take more than their attributes. */
+const widerTypes = { backdrop: 'string | HTMLImageElement | HTMLVideoElement | HTMLCanvasElement | OffscreenCanvas | ImageBitmap' };
+
 function typeOf(row) {
   const type = row.type === 'enum' ? row.values.map((value) => `'${value}'`).join(' | ') : row.type;
   return type + (row.default === null ? ' | null' : '');
@@ -124,7 +127,7 @@ export declare class VitrineViewer extends HTMLElement {
   static laterShaders: string | null;
   /** What all elements of the page hold, what of the files they show is left out or changed, and of those that move and are drawn in less than full quality the detail of render-scale. */
   static statistics: () => Promise<{ contexts: number; viewers: number; gpuBytes: number; heapBytes: number; warnings: string[]; lessened: VitrineViewerEventMap['render-scale']['detail'][] }>;
-${attributes.map((row) => `  /** ${row.description} Default: ${defaultOf(row) || 'empty'}. */\n  ${row.property}: ${typeOf(row)};`).join('\n')}
+${attributes.map((row) => `  /** ${row.description} Default: ${defaultOf(row) || 'empty'}. */\n  ${row.property}: ${widerTypes[row.property] ?? typeOf(row)};`).join('\n')}
 ${properties.map(({ name, type, writable, description }) => `  /** ${description} */\n  ${writable ? '' : 'readonly '}${name}: ${type};`).join('\n')}
 ${methods.map(({ signature, description }) => `  /** ${description} */\n  ${signature};`).join('\n')}
   addEventListener<K extends keyof VitrineViewerEventMap>(type: K, listener: (event: VitrineViewerEventMap[K]) => void, options?: boolean | AddEventListenerOptions): void;

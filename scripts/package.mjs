@@ -16,7 +16,7 @@ const version = readFileSync(join(root, 'src/vitrine.h'), 'utf8').match(/VT_VERS
 // Modules that are loaded only for files that need them; with two of them WebAssembly.
 const decoders = ['exr', 'unpack', 'draco', 'meshopt', 'basis', 'animation'];
 // Modules that are loaded once an element asks for what they do.
-const extras = ['hotspots', 'prompt'];
+const extras = ['hotspots', 'prompt', 'backdrop', 'later-shaders'];
 const decoderFiles = [...decoders.map((name) => `element/${name}.js`), 'element/draco.wasm', 'element/basis.wasm'];
 
 rmSync(folder, { recursive: true, force: true });
@@ -154,7 +154,7 @@ const weigh = (name, when = '') => {
 };
 const [coreWasm, coreScript, element] = loaded.map((name) => weigh(name));
 console.log(`  all that the element loads: ${((coreWasm + coreScript + element) / 1000).toFixed(1)} KB gzip`);
-const full = ['vitrine-full.wasm', 'vitrine-full.js'].reduce((bytes, name) => bytes + weigh(name, ', in place of vitrine-core with a ground or animations'), 0);
+const full = ['vitrine-full.wasm', 'vitrine-full.js'].reduce((bytes, name) => bytes + weigh(name, ', in place of vitrine-core with a ground, a backdrop or animations'), 0);
 console.log(`  all that such an element loads: ${((full + element) / 1000).toFixed(1)} KB gzip`);
 const ofThree = ['vitrine-three.wasm', 'vitrine-three.js', 'three/index.js'].reduce((bytes, name) => bytes + weigh(name, ', of vitrine-viewer/three'), 0);
 console.log(`  all that vitrine-viewer/three loads: ${(ofThree / 1000).toFixed(1)} KB gzip`);

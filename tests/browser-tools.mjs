@@ -118,6 +118,8 @@ function watchWork() {
   };
 }
 
+const scripts = new WeakMap(); // of a page: which were asked for, and how many have come
+
 /** A page of a context of its own, which is closed with `page.context().close()`; it waits patiently, and may ask no other host. */
 export async function openPage(browser, options = {}) {
   const context = await browser.newContext(options);
@@ -127,11 +129,22 @@ export async function openPage(browser, options = {}) {
     if (protocol.startsWith('http') && !['localhost', '127.0.0.1'].includes(hostname)) throw new Error(`a page asked another host: ${request.url()}`);
   });
   await context.addInitScript(watchWork);
-  return context.newPage();
+  const page = await context.newPage(), asked = { pending: new Set(), come: 0 };
+  scripts.set(page, asked);
+  page.on('request', (request) => request.resourceType() === 'script' && asked.pending.add(request));
+  for (const type of ['requestfinished', 'requestfailed']) page.on(type, (request) => asked.pending.delete(request) && ++asked.come);
+  return page;
 }
 
-/** Until the page of openPage has nothing to do: no frame, short timer, file, picture or animation is awaited. */
-export const quiet = (page) => page.evaluate((limit) => window.whenQuiet(limit), patience);
+/** Until the page of openPage has nothing to do: no frame, short timer, file, script, picture or animation is awaited. */
+export async function quiet(page) {
+  const asked = scripts.get(page);
+  let come;
+  do {
+    ({ come } = asked);
+    await page.evaluate((limit) => window.whenQuiet(limit), patience);
+  } while (asked.pending.size > 0 || asked.come !== come); // a script that has come may go on
+}
 
 /** What of [there, name] is missing, as the reason to skip; false where nothing is. */
 export function skipWithout(...needs) {

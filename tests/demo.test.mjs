@@ -539,9 +539,9 @@ describe('the demo page', { skip }, () => {
     const more = page.getByRole('button', { name: 'More shapes' }), back = page.getByRole('button', { name: 'Shapes before these' });
     assert.ok(await more.isVisible() && await back.isHidden(), 'there are more shapes on one side');
     while (await more.isVisible()) {
+      const isThere = page.evaluate(() => new Promise((done) => document.querySelector('#gallery').addEventListener('scrollend', () => requestAnimationFrame(done), { once: true })));
       await more.click();
-      await quiet(page);
-      await page.waitForTimeout(50); // it scrolls
+      await isThere;
     }
     assert.ok(await back.isVisible());
     const last = await page.locator('#gallery .shape').last().boundingBox();

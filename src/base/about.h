@@ -33,14 +33,8 @@
 #endif
 #endif
 
-/// A picture behind the scene, and panes before one: not in pages yet.
-#ifndef __EMSCRIPTEN__
-#define VT_WITH_BACKDROP 1
-#else
-#define VT_WITH_BACKDROP 0
-#endif
-
-/// A ground, and files that are animated: a page loads another core once it needs one of them, which says 1.
+/// A ground, a backdrop, panels, and files that are animated: a page loads another core once it needs one of
+/// them, which says 1.
 #ifndef VT_IS_FULL
 #ifndef __EMSCRIPTEN__
 #define VT_IS_FULL 1

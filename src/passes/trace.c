@@ -59,7 +59,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
     const bool host = VT_WITH_HOST && (variant & vt_traceHost) != 0, rough = (variant & vt_traceRough) != 0;
     const bool strict = (variant & vt_traceStrict) != 0, spectral = (variant & vt_traceSpectral) != 0;
     const bool records = (variant & vt_traceOnlyHeights) == 0, one = (variant & vt_traceOneObject) != 0;
-    const bool backdrop = VT_WITH_BACKDROP && (variant & vt_traceBackdrop) != 0;
+    const bool backdrop = VT_IS_FULL && (variant & vt_traceBackdrop) != 0;
     const bool ground = (variant & vt_traceGround) != 0, shade = (variant & vt_traceShade) != 0;
     const vtChunk* const chunks[] = {
         photons ? &vtChunk_with_photons : NULL,
@@ -189,7 +189,7 @@ void vtTracePass_Draw(const vtTracePass* pass, const vtGL* gl, vtTraceVariant va
             vtTexture_Bind(&inputs->ground->caustics, gl, vt_samplerCaustics);
         }
     }
-    if (VT_WITH_BACKDROP && (variant & vt_traceBackdrop) != 0) {
+    if (VT_IS_FULL && (variant & vt_traceBackdrop) != 0) {
         gl->Uniform4fv(program->uniforms[5], 3, inputs->backdropPlace->plane);
         vtTexture_Bind(inputs->backdrop, gl, vt_samplerBackdrop);
     }

@@ -55,7 +55,7 @@ bool vtRenderer_ShowsGround(const vtRenderer* renderer, const vtFrame* frame)
 
 bool vtRenderer_ShowsBackdrop(const vtRenderer* renderer, const vtFrame* frame)
 {
-    return VT_WITH_BACKDROP && renderer->hasBackdrop && vtTechnique_Row(frame->technique)->traces;
+    return VT_IS_FULL && renderer->hasBackdrop && vtTechnique_Row(frame->technique)->traces;
 }
 
 /// The variant of the trace pass.

@@ -342,7 +342,7 @@ vtResult vtObjectSpec_Check(const vtObjectSpec* spec, vtObjectKind kind, const c
 
 vtObjectKind vtKindOfShape(const char* name)
 {
-    return VT_WITH_BACKDROP && strcmp(name, "panel") == 0 ? vt_kindPanel : vt_kindMesh;
+    return VT_IS_FULL && strcmp(name, "panel") == 0 ? vt_kindPanel : vt_kindMesh;
 }
 
 vtResult vtObjectSpec_CreateShape(const vtObjectSpec* spec, const char* name, vtMesh* mesh, vtError* error)

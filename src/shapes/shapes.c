@@ -28,7 +28,7 @@ static const ShapeRow shapeTable[] = {
     {"tumbler", VT_ABOUT("hollow drinking glass with a thick base"), vtBuildTumbler, 0},
     {"water", VT_ABOUT("what fills the tumbler to 60 %, its sides inside the tumbler's walls"), vtBuildWater,
      0},
-#if VT_WITH_BACKDROP
+#if VT_IS_FULL
     {"panel", VT_ABOUT("pane with rounded corners and edges, see the keys width to thickness"), vtBuildPanel,
      0},
 #endif

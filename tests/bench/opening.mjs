@@ -137,7 +137,7 @@ async function makeSite({ size, model }) {
     await build({
       stdin: { contents: sources[name](size), resolveDir: join(root, 'tests/bench') },
       bundle: true, minify: true, format: 'esm', target: 'es2022', outfile, logLevel: 'error', legalComments: 'none',
-      external: ['../vitrine-full.js', './unpack.js', './animation.js', './exr.js', './draco.js', './meshopt.js', './basis.js', './hotspots.js', './prompt.js'],
+      external: ['../vitrine-full.js', './unpack.js', './animation.js', './exr.js', './draco.js', './meshopt.js', './basis.js', './hotspots.js', './prompt.js', './backdrop.js'],
     });
     files.set(`/${name}.js`, readFileSync(outfile));
     files.set(`/${name}`, Buffer.from(`<!doctype html><link rel="icon" href="data:,"><style>body { margin: 0 }</style><body>${body}<script type="module" src="/${name}.js"></script>`));

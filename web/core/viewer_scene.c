@@ -38,12 +38,12 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddShape(vtViewer* viewer, const char*
     vtObjectSpec spec;
     const int pattern = vtFindReliefPattern(name);
     vtResult result =
-        vtViewer_ReadSpec(viewer, text, pattern >= 0 ? vt_kindReliefPattern : vt_kindMesh, &spec);
+        vtViewer_ReadSpec(viewer, text, pattern >= 0 ? vt_kindReliefPattern : vtKindOfShape(name), &spec);
     if (result == vt_ok && pattern >= 0) {
         return sentence(viewer, vtViewer_AddPattern(viewer, pattern, &spec));
     }
     if (result == vt_ok) {
-        result = vtCreateShape(name, &mesh, &viewer->error);
+        result = vtObjectSpec_CreateShape(&spec, name, &mesh, &viewer->error);
     }
     return sentence(viewer, result == vt_ok ? vtViewer_AddMesh(viewer, &mesh, name, &spec) : result);
 }

@@ -18,7 +18,7 @@
  */
 
 /** Names that the core knows by itself; anything else in `src`, `relief` or `environment-image` is a URL. */
-export const shapes = ['sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'cube', 'plane', 'tumbler', 'water'];
+export const shapes = ['sphere', 'torus', 'knot', 'goblet', 'bottle', 'diamond', 'cube', 'plane', 'tumbler', 'water', 'panel'];
 /** Built-in reliefs, which `src` and `objects` know, too. */
 export const patterns = ['ripples', 'hammered', 'fluted', 'lens-array'];
 export const environments = ['studio', 'sky', 'checker'];
@@ -60,6 +60,8 @@ export const attributes = [
   string('environment-image', `What the glass refracts: URL of a picture, equirectangular or of six faces, or ${environments.join(', ')}.`, { default: 'studio' }),
   string('skybox-image', 'When present, the environment is shown behind the glass; its value, if any, is the environment where environment-image is absent. Absent: the page shows behind the glass.'),
   string('background', 'What is behind the scene; glass goes on showing environment-image. transparent, environment, blurred, blurred:DEGREES (1 to 90; 6), a colour as #f0e8d8, or URL of a picture that fills the element. Absent: environment with skybox-image, else transparent.'),
+  string('backdrop', 'A picture that stands behind the glass, which shows it bent and goes on reflecting environment-image: URL of a picture or video, which fills the element like object-fit: cover, or #id of an img, video or canvas of the page, of which the glass shows what lies under the element. The property takes such an element, an OffscreenCanvas or an ImageBitmap, too; set again, it has changed. Its colours stay as they are: without exposure and tone-mapping. exact and heightfield.'),
+  number('backdrop-distance', 0, 1e6, null, 'How far it stands behind the point looked at, in the unit of the model; 0: beyond all glass, by an eighth of its diagonal.', { defaultText: 'beyond all glass' }),
   number('exposure', 1e-6, 1e6, 1, 'Factor on the light of the picture.'),
   oneOf('tone-mapping', ['none', 'neutral', 'aces', 'agx'], 'From light to what a display shows: cut at white, Khronos PBR Neutral, the filmic curve of ACES, or AgX.', { default: 'neutral' }),
   boolean('ground', 'The ground below catches shadows and light; the sun of the environment casts shadows on opaque things of plain materials, too: exact and heightfield.'),
@@ -130,6 +132,7 @@ export function readAttributes(element) {
 /** Gives a class the properties of the table, each reflected as its attribute. */
 export function defineProperties(prototype) {
   for (const row of attributes) {
+    if (Object.hasOwn(prototype, row.property)) continue; // it takes more than its attribute
     Object.defineProperty(prototype, row.property, {
       configurable: true,
       enumerable: true,

@@ -1,8 +1,7 @@
-// The compiled modules, each loaded once a page: vitrine-core, and vitrine-full for elements that need a ground or
-// animations; and one Viewer (web/core/viewer.c) for each element.
+// The compiled modules, each loaded once a page: vitrine-core, and vitrine-full for elements that need a ground, a backdrop,
+// a panel or animations; and one Viewer (web/core/viewer.c) for each element.
 import createVitrine from '../vitrine-core.js';
 import { attributes } from './attributes.js';
-import { placeShaders } from './later-shaders.js';
 import { Context } from './context.js';
 import { openInCore, placePicture } from './picture.js';
 
@@ -35,7 +34,7 @@ async function loadFull(locateFile) {
 /**
  * The module. A load that failed is tried again by the next call.
  * @param {{locateFile?: (name: string) => string, wasmBinary?: BufferSource, laterShaders?: string}} from where the wasm and the shaders are, if not beside this; wasmBinary is vitrine-core.wasm's
- * @param {boolean} isFull with a ground and animations
+ * @param {boolean} isFull with all of that
  */
 export function loadCore(from = {}, isFull = false) {
   const { locateFile, wasmBinary } = (places = from);
@@ -53,7 +52,7 @@ export function ownTask() {
 
 /** vitrine-shaders.txt, which most pages need not: once, unless that failed. @returns {Promise<number>} where it is in the core's memory */
 function loadShaders(core) {
-  return remember(shaders, core, () => placeShaders(core, places));
+  return remember(shaders, core, async () => (await import('./later-shaders.js')).placeShaders(core, places));
 }
 
 /** What is held at present, for measurements, what of the files that are shown is left out or changed, and how the elements are drawn that move in less than full quality. */

@@ -1,4 +1,6 @@
-// What is loaded once an element asks for it: hotspots, and the hand that shows that the view can be turned.
+// What is loaded once an element asks for it: hotspots, the hand that shows that the view can be turned, a picture behind.
+import { fetchSource } from './loading.js';
+import { decodePicture } from './picture.js';
 
 export class Extras {
   #host;
@@ -29,6 +31,14 @@ export class Extras {
       return { place: () => [sentence] };
     });
     this.#told.say('hotspots', (await this.#hotspots).place(this.#stage.view).join('. '));
+  }
+
+  /** As Backdrop.show. */
+  async showBackdrop(wish, distance) {
+    const stage = this.#stage;
+    if (!wish && stage.backdrop === null) return;
+    const { Backdrop } = await import('./backdrop.js').catch((reason) => this.#lacks('backdrop', reason));
+    if (Backdrop) await (stage.backdrop ??= new Backdrop(this.#host, stage, this.#told, fetchSource, decodePicture)).show(wish, distance);
   }
 
   /** The hand comes after a while that nobody has touched the view. @param {object} values of the attributes @param {boolean} moves not where the visitor prefers reduced motion */

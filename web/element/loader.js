@@ -1,5 +1,5 @@
 // The files of one element: fetched side by side, shown environment first, dropped where the wish has changed.
-import { Progress, builtIn, fetchSource, lookInto, urlBeside } from './loading.js';
+import { Progress, builtIn, fetchSource, lookInto } from './loading.js';
 import { decodePicture, mayBePicture } from './picture.js';
 
 /** The part that was made from the same. */
@@ -84,7 +84,7 @@ export class Loader {
     const { isPacked, ...known } = lookInto(source.contents);
     Object.assign(source, known);
     if (!isPacked) return;
-    const { unpack } = await import('./unpack.js').catch((reason) => {
+    const { unpack, urlBeside } = await import('./unpack.js').catch((reason) => {
       throw new Error(`${source.name}: it is packed, or in several files, and element/unpack.js cannot be loaded (${reason.message}); serve it with the element`, { cause: reason });
     });
     source.contents = await unpack(source.contents, source.name, async (uri, what) => {

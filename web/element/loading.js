@@ -118,22 +118,6 @@ export async function fetchSource(url, signal, onBytes) {
 }
 
 /**
- * Where a file is that a model names: in the model's folder or one below.
- * @param {string} model URL, relative to the page
- * @param {string} uri
- * @param {string} what a buffer or a picture
- * @throws {Error} why it is not fetched
- */
-export function urlBeside(model, uri, what) {
-  const base = new URL(model, document.baseURI);
-  if (!/^https?:$/.test(base.protocol)) throw new Error(`this model has no folder; export it as one .glb`); // dropped onto the page
-  const { href, origin, pathname } = new URL(uri, base);
-  const isInside = origin === base.origin && pathname.startsWith(new URL('.', base).pathname) && !/%2f|%5c/i.test(pathname);
-  if (!isInside) throw new Error(`it lies outside the model's folder; put the ${what} beside the model`);
-  return href;
-}
-
-/**
  * What has to be known of a model before the core reads it.
  * @param {Uint8Array} bytes .glb or .gltf
  * @returns {{isPacked: boolean, isAnimated: boolean, variants: string[]}} isPacked: in several files, or geometry is packed, which unpack.js mends
@@ -188,7 +172,7 @@ export function variantProblem({ variantName = '', parts }) {
   return `variant-name is '${variantName}'; ${names.length > 0 ? `the files have ${names.map((name) => `'${name}'`).join(', ')}` : 'the files have none; leave it away'}`;
 }
 
-/** Has it a file with animations? @param {Scene|Source|null|undefined} source */
-export function isAnimated(source) {
-  return source?.parts?.some((part) => part.isAnimated) ?? false;
+/** Has it a part that the smaller core cannot show: a file with animations, or a panel? @param {Scene|Source|null|undefined} source */
+export function needsFull(source) {
+  return source?.parts?.some(({ isAnimated, url }) => isAnimated || url === 'panel') ?? false;
 }

@@ -1,6 +1,6 @@
 // A canvas with its viewer: what it shows, when it draws, and how well. Nothing is drawn unless the canvas can be
 // seen and something changed; once all rests, samples are added to the picture until it has enough.
-import { builtIn, isAnimated, variantProblem } from './loading.js';
+import { builtIn, needsFull, variantProblem } from './loading.js';
 import { Viewer, ownTask } from './core.js';
 import { listMaterials } from './materials.js';
 import { decodeTexture } from './picture.js';
@@ -43,6 +43,9 @@ export class Stage {
   cameraIndex = null;
   /** @type {{model: import('./loading.js').Scene|null, environment: import('./loading.js').Source|null, background: import('./loading.js').Source|null}} */
   scene = { model: null, environment: builtIn('environment', 'studio'), background: null };
+
+  /** @type {import('./backdrop.js').Backdrop|null} once the element has had one */
+  backdrop = null;
 
   #host;
   #told;
@@ -90,9 +93,9 @@ export class Stage {
     return { ...this.scene, ...(this.#coming && { model: this.#coming }), ...this.#pending };
   }
 
-  /** Is there an animation in the files of that? */
-  get isAnimated() {
-    return isAnimated(this.latest.model);
+  /** Does that need the larger core? */
+  get needsFull() {
+    return needsFull(this.latest.model);
   }
 
   get isVisible() {
@@ -101,6 +104,7 @@ export class Stage {
 
   set isVisible(visible) {
     this.#visible = visible;
+    this.backdrop?.see();
     if (visible) this.#beSeen();
     this.#schedule();
   }
@@ -131,7 +135,7 @@ export class Stage {
   show(kind, source) {
     if (kind === 'model') this.#coming = null;
     delete this.#pending[kind];
-    if (this.#viewer === null || this.#viewer.isLost || this.#unfilled.includes(kind) || (isAnimated(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
+    if (this.#viewer === null || this.#viewer.isLost || this.#unfilled.includes(kind) || (needsFull(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
     else this.#upload(kind, source);
   }
 
@@ -383,6 +387,7 @@ export class Stage {
   /** A technique that cannot have the scene is tried once; the scene's usual one stands in for it. */
   #applyGlass(glass, lessened = false) {
     const viewer = this.#viewer;
+    glass = this.backdrop?.apply(viewer, glass) ?? glass;
     const { technique } = glass;
     if (technique !== this.#refused?.technique) {
       const problem = viewer.setGlass({ ...glass, lessened });
@@ -408,8 +413,8 @@ export class Stage {
   /** Finds the view that shows the whole scene, or the file's camera, where the scene or the shape of the picture is new. */
   #frameObject() {
     const [width, height] = sizeOf(this.#host, 1);
-    const { orbit, cameraIndex } = this;
-    const key = `${width / height} ${orbit.wantedFieldOfView} ${cameraIndex}`;
+    const { orbit, cameraIndex, backdrop } = this;
+    const key = `${width / height} ${orbit.wantedFieldOfView} ${cameraIndex} ${backdrop?.isThere}`;
     if (key === this.#framedFor) return;
     this.#framedFor = key;
     const problem = cameraIndex === null ? '' : this.#viewer.attempt('UseCamera', cameraIndex);
@@ -419,7 +424,7 @@ export class Stage {
       this.#viewer.call('ResetView', width / height);
     }
     const { eye, target, fov } = this.#viewer.info();
-    orbit.frame(eye, target, fov);
+    orbit.frame(hasCamera ? eye : backdrop?.straighten(eye, target) ?? eye, target, fov);
     this.view.jump();
     this.#told.warned('camera', problem);
   }

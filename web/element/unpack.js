@@ -206,6 +206,22 @@ class Repacking {
 }
 
 /**
+ * Where a file is that a model names: in the model's folder or one below.
+ * @param {string} model URL, relative to the page
+ * @param {string} uri
+ * @param {string} what a buffer or a picture
+ * @throws {Error} why it is not fetched
+ */
+export function urlBeside(model, uri, what) {
+  const base = new URL(model, document.baseURI);
+  if (!/^https?:$/.test(base.protocol)) throw new Error(`this model has no folder; export it as one .glb`); // dropped onto the page
+  const { href, origin, pathname } = new URL(uri, base);
+  const isInside = origin === base.origin && pathname.startsWith(new URL('.', base).pathname) && !/%2f|%5c/i.test(pathname);
+  if (!isInside) throw new Error(`it lies outside the model's folder; put the ${what} beside the model`);
+  return href;
+}
+
+/**
  * @param {Uint8Array} file .glb or .gltf
  * @param {string} name for sentences
  * @param {(uri: string, what: string) => Promise<Uint8Array>} read a file that it names

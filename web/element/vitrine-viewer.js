@@ -6,7 +6,7 @@ import { coreStatistics, loadCore, ownTask } from './core.js';
 import { Extras } from './extras.js';
 import { readGround } from './ground.js';
 import { Loader } from './loader.js';
-import { readBackground, wishOf } from './loading.js';
+import { needsFull, readBackground, wishOf } from './loading.js';
 import { parseFieldOfView, parseOrbit, parsePlacement, parseTarget } from './orbit.js';
 import { Stage } from './stage.js';
 import { createShadow } from './template.js';
@@ -49,6 +49,8 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   });
   #source = 'none'; // of the last motion
   #extras = new Extras(this, this.#stage, { say: (...values) => this.#say(...values), failed: (...values) => this.#fail('loadfailure', ...values) });
+  #backdrop = ''; // text, or what has the picture
+  #behind = null; // promise of it
   #animation = null; // animation.js's, once files have some
   #isAnimating = false; // it is being loaded
   #isFull = false; // it needs vitrine-full
@@ -103,6 +105,16 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   /** Names of the animations that the files shown have, for animation-name. */
   get availableAnimations() {
     return this.#animation?.names ?? [];
+  }
+
+  /** As its attribute, which it does not change, or what has the picture. @type {string|HTMLImageElement|HTMLVideoElement|HTMLCanvasElement|OffscreenCanvas|ImageBitmap} */
+  get backdrop() {
+    return this.#backdrop;
+  }
+
+  set backdrop(picture) {
+    this.#backdrop = picture ?? '';
+    this.#update('backdrop');
   }
 
   /** Seconds of the animation that is played; 0 without any. */
@@ -261,7 +273,8 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
   }
 
   attributeChangedCallback(name, before, after) {
-    if (before !== after) this.#update(name);
+    if (name === 'backdrop') this.backdrop = after;
+    else if (before !== after) this.#update(name);
   }
 
   #close() {
@@ -346,8 +359,10 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     if (sentence && isNew) this.#dispatch('error', { type: 'invalid', sourceError: new Error(sentence) });
     this.#updateSpin();
     this.#updateAnimation();
+    const isBehind = changed.has('backdrop');
+    if (this.#behind !== null && (isBehind || changed.has('backdrop-distance'))) this.#behind = this.#showBackdrop();
     stage.invalidate();
-    if (['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'ground', 'shadow-intensity', 'autoplay', 'animation-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
+    if ((isBehind && !this.#isFull) || ['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'ground', 'shadow-intensity', 'autoplay', 'animation-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */
@@ -397,6 +412,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const { src, loading, environmentImage, skyboxImage } = this.#values;
     if (!this.#isOpen || src === undefined || (loading !== 'eager' && !this.#wasSeen)) return;
     loadCore(VitrineViewer, this.#needsFull).catch(() => {}); // said below
+    this.#behind ??= this.#showBackdrop();
     const model = this.#wish;
     if (model.url === '') {
       this.#isLoaded = this.#hasFrame = false;
@@ -409,6 +425,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
     if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, this.#stage.latest))) return;
     try {
+      await this.#behind; // the first frame shall have it
       const loaded = await loadCore(VitrineViewer, this.#needsFull);
       await ownTask();
       this.#stage.core = loaded;
@@ -417,10 +434,14 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     }
   }
 
-  /** The larger core, that has a ground and animations; who has it keeps it. */
+  #showBackdrop() {
+    return this.#extras.showBackdrop(this.#backdrop, this.#values.backdropDistance);
+  }
+
+  /** The larger core, that has a ground, a backdrop, panels and animations; who has it keeps it. */
   get #needsFull() {
     const { ground, shadowIntensity, autoplay, animationName } = this.#values;
-    this.#isFull ||= ground || shadowIntensity > 0 || autoplay || animationName !== '' || this.#stage.isAnimated;
+    this.#isFull ||= this.#backdrop !== '' || ground || shadowIntensity > 0 || autoplay || animationName !== '' || needsFull(this.#wish) || this.#stage.needsFull;
     return this.#isFull;
   }
 
