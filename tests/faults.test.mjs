@@ -23,7 +23,7 @@ const page = `<!doctype html><html lang="en"><title>Test</title><link rel="icon"
 /** In the page, before its scripts: the n-th call of some name fails as WebGL has it; and what tests do there. */
 function simulate() {
   const { prototype } = WebGL2RenderingContext;
-  const fault = (window.fault = { name: '', at: 0, calls: 0, error: 0, isTiny: false, refused: [] });
+  const fault = (window.fault = { name: '', at: 0, calls: 0, error: 0, isBare: false, isTiny: false, refused: [] });
   const real = {};
   const wrap = (name, act) => {
     real[name] = prototype[name];
@@ -50,8 +50,18 @@ function simulate() {
       fault.error = outOfMemory;
     });
   }
-  wrap('framebufferTexture2D', (call, target, point, kind) => (fails('framebufferTexture2D') ? call(target, point, kind, null, 0) : call())); // it is not complete
-  wrap('framebufferTextureLayer', (call, target, point) => (fails('framebufferTextureLayer') ? call(target, point, null, 0, 0) : call()));
+  // One without any attachment is not complete.
+  wrap('bindFramebuffer', (call) => {
+    fault.isBare = false;
+    call();
+  });
+  for (const [name, bare] of [['framebufferTexture2D', [0x0de1, null, 0]], ['framebufferTextureLayer', [null, 0, 0]]]) {
+    wrap(name, (call, target, point) => {
+      fault.isBare ||= point === 0x8ce0 && fails(name); // its first
+      if (fault.isBare) call(target, point, ...bare);
+      else call();
+    });
+  }
   wrap('drawBuffers', (call, buffers) => refuses('drawBuffers', buffers.length > 4) || call());
   wrap('activeTexture', (call, unit) => refuses('activeTexture', unit >= 0x84c0 + 32) || call());
   wrap('shaderSource', (call, shader, text) => call(shader, fails('compileShader') ? '#version 300 es\n#error simulated\n' : text));

@@ -10,7 +10,7 @@ import { after, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { inflateSync } from 'node:zlib';
 import { cube, glb, gltf } from '../scripts/glb.mjs';
-import { ball, model, solid } from './case-models.mjs';
+import { ball, model, solid, thin } from './case-models.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
@@ -182,6 +182,7 @@ describe('eyes', { skip }, () => {
 describe('indices', { skip }, () => {
   const none = { least: 0, most: 0 };
   test('1 turns nothing', () => agrees([glass(round), '--ior', '1'], none));
+  test('a thin wall, which is passed straight on', () => agrees([glass(round, thin([1, 1, 1]))]));
   test('1 of an object', () => agrees(['--object', 'sphere:ior=1', '--object', 'cube:ior=1,at=0.2,0,0'], none));
   test('0 of a file mirrors all', () => agrees([glass(round, solid([1, 1, 1], { extensions: { KHR_materials_ior: { ior: 0 } } }))], none));
   for (const ior of long ? [1.00001, 1.0001, 1.1, 2.5, 4] : [1.00001, 4]) test(`${ior}`, () => agrees([glass(round), '--ior', String(ior)]));
