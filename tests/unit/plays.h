@@ -21,7 +21,7 @@ static bool isLong(void)
 /// Of all faults, each so many-th is tried.
 static int faultStep(void)
 {
-    return isLong() ? 1 : 4;
+    return isLong() ? 1 : 8;
 }
 
 typedef struct Case {
