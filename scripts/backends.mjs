@@ -7,6 +7,7 @@ import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { answerWithFile, chromiumPath, launch, listen, openPage, quiet } from '../tests/browser-tools.mjs';
+import { difference } from '../tests/difference.mjs';
 
 const root = resolve(fileURLToPath(import.meta.url), '../..');
 const site = resolve(process.env.VITRINE_WEB ?? join(root, 'build/web'));
@@ -27,16 +28,6 @@ export function boundOf(technique, name) {
 
 export const browsers = { llvmpipe: 'Chromium, llvmpipe', swiftshader: 'Chromium, SwiftShader' };
 export const hasBrowsers = existsSync(chromiumPath) && existsSync(join(site, 'element/vitrine-viewer.js'));
-
-export function difference(a, b) {
-  let sum = 0, apart = 0;
-  for (let i = 0; i < a.data.length; i += 4) {
-    const here = [0, 1, 2].map((k) => Math.abs(a.data[i + k] - b.data[i + k]));
-    sum += here[0] + here[1] + here[2];
-    apart += Math.max(...here) > 8;
-  }
-  return { mean: sum / (0.75 * a.data.length), apart: apart / (a.data.length / 4) };
-}
 
 export function drawNatively(technique, backend) {
   const result = spawnSync(binary, ['render', sourceOf(technique), '-t', technique, '--rendering-backend', backend, '--tone-mapping', 'neutral', '-r', `${side},${side}`, '-o', '-'], { maxBuffer: 1 << 26 });

@@ -89,7 +89,7 @@ export const manySamplers = (count, keys) => sheet(3 * keys, 1, (json) => {
 });
 
 /** Of PNG, section D: CRC-32. @param {Buffer} bytes */
-export function checksum(bytes) {
+function checksum(bytes) {
   let sum = 0xffffffff;
   for (const byte of bytes) {
     sum ^= byte;
@@ -98,7 +98,8 @@ export function checksum(bytes) {
   return ~sum >>> 0;
 }
 
-const chunk = (type, data) => {
+/** A chunk of a PNG file. @param {string} type four letters @param {Buffer} data */
+export const pngChunk = (type, data) => {
   const bytes = Buffer.alloc(12 + data.length);
   bytes.writeUInt32BE(data.length, 0);
   bytes.write(type, 4, 'latin1');
@@ -115,13 +116,13 @@ export function png(width, height, { bits = 1, type = 0, rows = height, extra = 
   header[8] = bits;
   header[9] = type;
   const row = 1 + Math.ceil((width * bits * { 0: 1, 2: 3, 4: 2, 6: 4 }[type]) / 8);
-  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', header), ...extra,
-    chunk('IDAT', deflateSync(Buffer.alloc(row * rows), { level: 9 })), chunk('IEND', Buffer.alloc(0))]);
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), pngChunk('IHDR', header), ...extra,
+    pngChunk('IDAT', deflateSync(Buffer.alloc(row * rows), { level: 9 })), pngChunk('IEND', Buffer.alloc(0))]);
 }
 
 /** Texts that unpack to `size` bytes each. */
-export const pngTexts = (count, size) => png(4, 4, { extra: Array(count).fill(chunk('zTXt', Buffer.concat([Buffer.from('a\0\0'), deflateSync(Buffer.alloc(size, 65))]))) });
-export const pngProfile = (size) => png(4, 4, { extra: [chunk('iCCP', Buffer.concat([Buffer.from('a\0\0'), deflateSync(Buffer.alloc(size))]))] });
+export const pngTexts = (count, size) => png(4, 4, { extra: Array(count).fill(pngChunk('zTXt', Buffer.concat([Buffer.from('a\0\0'), deflateSync(Buffer.alloc(size, 65))]))) });
+export const pngProfile = (size) => png(4, 4, { extra: [pngChunk('iCCP', Buffer.concat([Buffer.from('a\0\0'), deflateSync(Buffer.alloc(size))]))] });
 
 const marker = (code, ...bytes) => Buffer.from([0xff, code, (bytes.length + 2) >> 8, (bytes.length + 2) & 255, ...bytes]);
 

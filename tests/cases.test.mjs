@@ -11,6 +11,7 @@ import { fileURLToPath } from 'node:url';
 import { answerWithFile, chromiumPath, launch, listen, openPage, quiet, skipWithout } from './browser-tools.mjs';
 import { ball, box, edited, matt, model, quad, solid, thin, unlit } from './case-models.mjs';
 import { drawingOf, rows } from './case-rows.mjs';
+import { difference } from './difference.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
@@ -31,19 +32,6 @@ function pngOf(width, height, pixels) {
 const byteOf = (linear) => 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
 const linearOf = (byte) => (byte <= 10.31 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
 const pixel = ({ data, width }, x, y) => [...data.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)];
-
-/** Mean and largest difference of a channel, bytes, and the share of pixels of which one differs by more than 8. */
-function difference(a, b) {
-  assert.deepEqual([a.width, a.height], [b.width, b.height]);
-  let sum = 0, most = 0, apart = 0;
-  for (let i = 0; i < a.data.length; i += 4) {
-    const here = [0, 1, 2].map((k) => Math.abs(a.data[i + k] - b.data[i + k]));
-    sum += here[0] + here[1] + here[2];
-    most = Math.max(most, ...here);
-    apart += Math.max(...here) > 8;
-  }
-  return { mean: sum / (0.75 * a.data.length), most, apart: apart / (a.data.length / 4) };
-}
 
 const drawn = new Map(); // by the arguments
 

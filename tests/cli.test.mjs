@@ -12,7 +12,7 @@ import { PNG } from 'pngjs';
 import * as shapes from '../scripts/glb.mjs';
 import { glb, gltf } from '../scripts/glb.mjs';
 import { drawPlot } from '../scripts/plot.mjs';
-import { checksum } from './bombs.mjs';
+import { pngChunk } from './bombs.mjs';
 import { goldenModels } from './golden-models.mjs';
 import { moving } from './moving-model.mjs';
 
@@ -540,14 +540,6 @@ describe('objects', () => {
 
 /** A grey PNG of 8 or 16 bits; `height(column, row)` is 0 to 1. */
 function greyPng(width, height, bits, heightAt) {
-  const chunk = (type, data) => {
-    const bytes = Buffer.alloc(12 + data.length);
-    bytes.writeUInt32BE(data.length, 0);
-    bytes.write(type, 4, 'latin1');
-    data.copy(bytes, 8);
-    bytes.writeUInt32BE(checksum(bytes.subarray(4, -4)), 8 + data.length);
-    return bytes;
-  };
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
   header.writeUInt32BE(height, 4);
@@ -559,7 +551,7 @@ function greyPng(width, height, bits, heightAt) {
       rows.writeUIntBE(Math.round(heightAt(column, row) * (2 ** bits - 1)), at, size);
     }
   }
-  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', header), chunk('IDAT', deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]);
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), pngChunk('IHDR', header), pngChunk('IDAT', deflateSync(rows)), pngChunk('IEND', Buffer.alloc(0))]);
 }
 
 describe('pictures seen through glass do not sparkle', () => {

@@ -10,7 +10,6 @@ enum { small = 24 };
 
 // ------------------------------------------------------------------------------------------------- cases
 
-/// What a picture may ask of the driver beside glass.
 /// VITRINE_LONG: nothing is left out.
 static bool isLong(void)
 {
@@ -24,6 +23,7 @@ static int faultStep(void)
     return isLong() ? 1 : 8;
 }
 
+/// What a picture may ask of the driver beside glass.
 typedef struct Case {
     const char* name;
     vtTechnique technique;

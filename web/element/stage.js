@@ -304,10 +304,8 @@ export class Stage {
   #fillNext() {
     const kind = this.#unfilled.shift();
     if (kind === undefined) return;
-    const { [kind]: came, ...pending } = this.#pending;
-    this.#pending = pending;
     if (this.scene[kind] !== null) this.#upload(kind, this.scene[kind], false);
-    if (came !== undefined) this.show(kind, came);
+    if (this.#pending[kind] !== undefined) this.show(kind, this.#pending[kind]);
   }
 
   #upload(kind, source, isNew = true) {
