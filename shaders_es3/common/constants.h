@@ -74,6 +74,8 @@
 #define VT_GROUND_SIDE 512
 #define VT_GROUND_SAMPLES 4096
 #define VT_GROUND_BELOW 0.001
+// Of photons of one wavelength: more than their colours have (shaders_es3/exact/spectral.glsl).
+#define VT_PHOTON_MOST 5.0
 
 // Light that glass bends onto opaque things (src/light/caustics.h): RGBA32UI texels, so many a row. The first: slots of the
 // table. Two a slot: object + 1 (0: free), triangle, sides of its lattice, number of its first sample; its window (low i

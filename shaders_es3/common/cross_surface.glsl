@@ -17,7 +17,7 @@ vec4 glassOf(uint id)
     int object = max(int(id) - 1, 0);
     vec4 glass = readGlass(object);
 #ifdef WITH_SPECTRAL
-    glass.x = dispersedIndex(object, glass.x);
+    glass.x = dispersedIndex(object, glass.x, id != 0u);
 #endif
     return mix(vec4(1.0, 0.0, 0.0, 0.0), glass, bvec4(id != 0u));
 }
@@ -67,7 +67,7 @@ bool crossSurface(inout Path p, inout Media media, float distance, SurfaceHit hi
     vec3 I = p.direction;
 #ifdef WITH_ROUGH
     float roughness = roughnessOf(hit.object), alpha = roughness * roughness;
-    bool isFacet = u_sample.y != 0 && alpha > 0.0;
+    bool isFacet = BY_CHANCE && alpha > 0.0;
     vec3 smoothN = dot(N, I) < 0.0 ? N : G, chance = chanceOfFacet(p.facets);
     N = isFacet ? facetNormal(smoothN, I, alpha, chance) : N;
     p.facets += int(isFacet);

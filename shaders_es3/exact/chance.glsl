@@ -2,7 +2,14 @@
 //   Mark Jarzynski, Marc Olano. Hash Functions for GPU Rendering. JCGT 2020: pcg3d;
 //   R. Cranley, T. N. L. Patterson. Randomization of Number Theoretic Methods for Multiple Integration. 1976: a sequence
 //   shifted by another number in every pixel.
-// Needs frame.
+// Needs frame. Of photons the numbers are photon_chance.glsl's.
+
+// Does chance choose? In all samples but the first, and for photons.
+#ifdef WITH_PHOTONS
+#define BY_CHANCE true
+#else
+#define BY_CHANCE (u_sample.y != 0)
+#endif
 
 vec3 mixedNumbers(uvec3 v)
 {
@@ -30,6 +37,11 @@ float chanceOf(int round)
 // the samples, by steps of the root of x^5 = x + 1.
 vec3 chanceOfFacet(int facet)
 {
+#ifdef WITH_PHOTONS
+    if (facet < 2) {
+        return chanceOfPhoton(facet);
+    }
+#endif
     bool isSpread = facet < 2;
     uint use = 0x10000u + uint(facet);
     uint sampled = 0x100000u * uint(u_sample.x);

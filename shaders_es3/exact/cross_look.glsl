@@ -47,7 +47,7 @@ bool crossLook(inout Path p, inout Media media, Look look, SurfaceHit hit, Meeti
 #ifdef WITH_ROUGH
     bool isMirror = (look.flags & VT_LOOK_MIRROR) != 0u, isBent = isThin ? look.ior != 1.0 : isInterface && (eta != 1.0 || isMirror);
     float alpha = isBent && !isOpaque ? look.roughness * look.roughness : 0.0;
-    bool isFacet = u_sample.y != 0 && alpha > 0.0;
+    bool isFacet = BY_CHANCE && alpha > 0.0;
     vec3 smoothN = dot(N, I) < 0.0 ? N : G, chance = chanceOfFacet(p.facets);
     vec3 n = isFacet ? facetNormal(smoothN, I, alpha, chance) : N;
     vec3 T = isStraight ? I : meetInterface(I, n, isFacet ? n : G, eta, reflected);

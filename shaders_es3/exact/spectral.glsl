@@ -38,7 +38,8 @@ const vec4 FAN[8] = vec4[8](
 
 uniform int u_wavelengths; // of the first sample, 1 to 3
 
-float g_spread; // of the wavelength that is followed
+float g_spread;             // of the wavelength that is followed
+bool g_isDispersed = false; // the pixel's paths have met glass that disperses: until then all wavelengths go one way
 
 vec4 spectrumAt(float at)
 {
@@ -64,10 +65,11 @@ vec3 startWavelength(int part)
     return isFirst ? mask : spectrum.rgb / 3.0;
 }
 
-// Of an object whose index at 587.6 nm that is.
-float dispersedIndex(int object, float ior)
+// Of an object whose index at 587.6 nm that is. isMet: the path goes through it.
+float dispersedIndex(int object, float ior, bool isMet)
 {
     float dispersion = uintBitsToFloat(objectBits(object, VT_OBJECT_IMAGES).w);
+    g_isDispersed = g_isDispersed || (isMet && dispersion > 0.0);
     return mix(ior, max(ior + (ior - 1.0) * dispersion * 0.05 * g_spread, 1.0), step(1e-9, dispersion));
 }
 

@@ -193,7 +193,8 @@ vec3 spectralSurroundings(Path p, float width, vec3 lobe)
     for (int i = 0; i < 8; ++i) {
         vec4 part = mix(vec4(1.0, 1.0, 1.0, g_spread), FAN[i], bvec4(isFan));
         float step = part.a - g_spread;
-        vec3 position = p.position + step * place, direction = normalize(p.direction + step * turn);
+        vec3 position = p.position + step * place;
+        vec3 direction = mix(p.direction, normalize(p.direction + step * turn), bvec3(isFan));
 #ifdef WITH_BACKDROP
         light += part.rgb * surroundings(position, direction, width, lobe, p.footprint);
 #else
@@ -403,8 +404,12 @@ void main()
     vec3 light = vec3(0.0);
     for (int part = 0; part < 3; ++part) {
         vec3 color = startWavelength(part);
-        light += color * lightOfPixel(status);
-        if (part + 1 >= wavelengthCount()) {
+        vec3 seen = lightOfPixel(status);
+        if (g_isDispersed) {
+            seen *= color;
+        }
+        light += seen;
+        if (part + 1 >= wavelengthCount() || !g_isDispersed) {
             break;
         }
     }

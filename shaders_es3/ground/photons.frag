@@ -1,7 +1,9 @@
 // Rays for the light on the ground, in place of those from the eye: from the ground towards a light, to see whether
 // something is in its way, or from a light through the glass, to see where it comes down. The twin of src/light/ground.c,
 // which names the sources and adds up what is found. A photon's path parts once at its first surface, and once more within
-// the glass; each part has a target. Needs what trace.frag needs, and that before it.
+// the glass; each part has a target. Where glass disperses a photon has one wavelength, and where glass is rough it meets one
+// facet at each surface; both are spread evenly over photons that lie side by side. Needs what trace.frag needs, and that
+// before it.
 uniform usampler2D u_groundLights; // directions towards the lights (bits of floats), 64 x 64 texels a list
 uniform vec4 u_ground;             // height; the map's corner, x and z; its side
 uniform vec4 u_groundRays;         // the list; 1: photons; diagonal of the scene; rays along a side of the target
@@ -40,6 +42,28 @@ vec3 inCone(vec2 place)
     return sqrt(max(1.0 - cosine * cosine, 0.0)) * (cos(angle) * right + sin(angle) * cross(axis, right)) + cosine * axis;
 }
 
+#ifdef WITH_SPECTRAL
+vec3 g_color; // of its wavelength, linear sRGB over VT_PHOTON_MOST
+#else
+const vec3 g_color = vec3(1.0);
+#endif
+
+Path startPhoton(vec3 position, vec3 direction)
+{
+#ifdef WITH_FOOTPRINT
+    return startPath(position, direction, Footprint(STEPS(0.0), STEPS(0.0))); // pictures are seen as they are
+#else
+    return startPath(position, direction);
+#endif
+}
+
+// What is left of its light, which has parts below 0 where it has one wavelength; the rest of the fourth word is free.
+uvec2 packLight(vec3 light)
+{
+    light *= g_color;
+    return uvec2(packSnorm2x16(light.rg), packSnorm2x16(vec2(light.b, 0.0)));
+}
+
 // Where a photon comes down (bits of floats) and what is left of its light; 0: nothing.
 uvec4 landing(Path p, int status)
 {
@@ -47,7 +71,7 @@ uvec4 landing(Path p, int status)
     vec2 at = p.position.xz + height / max(down, 1e-6) * p.direction.xz;
     bool isDown = status == VT_PATH_EXITED && down > 1e-6;
     vec3 left = isDown ? p.transmittance : vec3(0.0);
-    return uvec4(floatBitsToUint(at), packUnorm2x16(left.rg), packUnorm2x16(vec2(left.b, 0.0)));
+    return uvec4(floatBitsToUint(at), packLight(left));
 }
 
 #if defined(WITH_OPAQUE) && !defined(ONLY_HEIGHTS)
@@ -57,8 +81,7 @@ uvec4 landingOnOpaque(Path p, Meeting met)
 {
     vec3 area = normalToWorld(readTransform(met.object), cornersArea(recordCorners(met.triangle)));
     uint bits = 4u | (dot(area, p.direction) > 0.0 ? 8u : 0u) | uint(met.object) << 4u;
-    return uvec4(met.triangle, packUnorm2x16(met.at), packUnorm2x16(p.transmittance.rg),
-                 packUnorm2x16(vec2(p.transmittance.b, 0.0)) | bits << 16u);
+    return uvec4(met.triangle, packUnorm2x16(met.at), packLight(p.transmittance) | uvec2(0u, bits << 16u));
 }
 #endif
 
@@ -85,7 +108,12 @@ void main()
     vec3 above = 0.5 * (u_groundBox[0].xyz + u_groundBox[1].xyz) + across.x * right + across.y * up + 1.5 * u_groundRays.z * light;
 
     vec3 start = isPhoton ? (isNear ? u_groundLight[0].xyz : above) : ground;
-    Path p = startPath(start, isPhoton ? -light : light);
+#ifdef WITH_SPECTRAL
+    vec4 spectrum = SPECTRUM[wavelengthOfPhoton()];
+    g_spread = spectrum.a;
+    g_color = spectrum.rgb / VT_PHOTON_MOST;
+#endif
+    Path p = startPhoton(start, isPhoton ? -light : light);
     p.choice = -1.0; // the stronger part
     p.events = isPhoton ? 0 : 1000; // of a shade ray the first event is one too many
     Media media = AIR, asideMedia = AIR;
@@ -121,10 +149,13 @@ void main()
         }
         first = i == 1 ? landed : first;
         third = i == 2 ? landed : third;
-        p = startPath(isOwn ? firstPosition : asidePosition, isOwn ? firstDirection : asideDirection);
+        p = startPhoton(isOwn ? firstPosition : asidePosition, isOwn ? firstDirection : asideDirection);
         p.transmittance = isOwn ? firstLight : asideLight;
         p.choice = -1.0;
         p.events = 1;
+#ifdef WITH_ROUGH
+        p.facets = 64 * (i + 1);
+#endif
         if (!isOwn) {
             media = asideMedia;
         }

@@ -280,7 +280,8 @@ static bool writeMap(const Gathering* all, vtCausticMap* map)
     for (uint32_t i = 0; i < all->sampleCount; ++i) {
         for (int behind = 0; behind < 2; ++behind) {
             const vtVec3 sum = vtMakeVec3(all->sums + 6 * (size_t)i + 3 * behind);
-            const vtVec3 light = vtScale(sum, all->areas[i] > 0.0f ? 1.0f / all->areas[i] : 0.0f);
+            vtVec3 light = vtScale(sum, all->areas[i] > 0.0f ? 1.0f / all->areas[i] : 0.0f);
+            light = (vtVec3){fmaxf(light.x, 0.0f), fmaxf(light.y, 0.0f), fmaxf(light.z, 0.0f)};
             memcpy(map->words + 4 * (firstSample + 2 * (size_t)i + (size_t)behind), &light,
                    3 * sizeof(float));
         }

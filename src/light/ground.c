@@ -10,6 +10,9 @@
 //  - Rays stand on a lattice, rows of a grid shifted by the golden ratio, and their directions come in a
 //    fixed order that has all parts of a light in every
 //    8 x 8 of them (Bayer 1973), so that even light comes out even.
+//  - What a texel of the map has of sky and sun is what is lit of its own rays' light, a share that is
+//  without
+//    noise where nothing is in the way (a ratio estimate: Heitz, Hill & McGuire 2018 have shadows so).
 //  - Glass and what is opaque cast the same shadow; all the light that glass lets through is photons'.
 #include "light/ground.h"
 
@@ -30,16 +33,12 @@ static bool allocateSums(vtGroundPlan* plan)
         const size_t side = (size_t)vtGroundSide((vtGroundLight)light);
         const bool any = light != vt_groundLights || plan->sourceCount > 2;
         plan->sums[light] = any ? vtAllocateZeroed(side * side, 3 * sizeof(float)) : NULL;
-        ready = ready && (!any || plan->sums[light] != NULL);
+        plan->unshaded[light] = any ? vtAllocateZeroed(side * side, 3 * sizeof(float)) : NULL;
+        ready = ready && (!any || (plan->sums[light] != NULL && plan->unshaded[light] != NULL));
         for (int rays = 0; rays < vt_groundRaysCount && light < 2; ++rays) {
             plan->samples[light][rays] = vtAllocate(VT_GROUND_SAMPLES, sizeof(vtLightSample));
             ready = ready && plan->samples[light][rays] != NULL;
         }
-    }
-    if (plan->sourceCount > 2) {
-        const size_t side = (size_t)vtGroundSide(vt_groundLights);
-        plan->unshaded = vtAllocateZeroed(side * side, 3 * sizeof(float));
-        ready = ready && plan->unshaded != NULL;
     }
     return ready;
 }
@@ -131,12 +130,12 @@ void vtDestroyGroundPlan(vtGroundPlan* plan)
 {
     for (int light = 0; light < vt_groundLightCount; ++light) {
         vtFree(plan->sums[light]);
+        vtFree(plan->unshaded[light]);
     }
     for (int rays = 0; rays < vt_groundRaysCount; ++rays) {
         vtFree(plan->samples[vt_groundSky][rays]);
         vtFree(plan->samples[vt_groundSun][rays]);
     }
-    vtFree(plan->unshaded);
     *plan = (vtGroundPlan){0};
 }
 
@@ -320,8 +319,20 @@ void vtGroundPlan_AddShade(vtGroundPlan* plan, int source, const vtGroundRay* ra
     if (isLit) {
         add(plan->sums[light] + texel, ray->color, share * share);
     }
+    add(plan->unshaded[light] + texel, ray->color, share * share);
+}
+
+void vtGroundPlan_EndShade(vtGroundPlan* plan, int source)
+{
     if (source >= 2) {
-        add(plan->unshaded + texel, ray->color, share * share);
+        return;
+    }
+    const int side = vtGroundSide((vtGroundLight)source);
+    const float whole[3] = {plan->irradiance[source].x, plan->irradiance[source].y,
+                            plan->irradiance[source].z};
+    for (int i = 0; i < 3 * side * side; ++i) {
+        const float all = plan->unshaded[source][i];
+        plan->sums[source][i] *= all > 0.0f ? whole[i % 3] / all : 1.0f;
     }
 }
 

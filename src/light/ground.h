@@ -26,7 +26,7 @@ typedef struct vtGroundPlan {
     vtVec3 irradiance[2];                          ///< of the ground without a scene; 0: no such light
     vtLightSample* samples[2][vt_groundRaysCount]; ///< VT_GROUND_SAMPLES each
     float* sums[vt_groundLightCount];              ///< irradiance gathered, 3 a texel
-    float* unshaded;                               ///< by lights of files, without a scene: the same
+    float* unshaded[vt_groundLightCount];          ///< the same by all shade rays, whatever they meet
 } vtGroundPlan;
 
 /// What a ground lies below.
@@ -89,6 +89,9 @@ vtGroundRay vtGroundPlan_Ray(const vtGroundPlan* plan, int source, vtGroundRays 
 /// A shade ray has met something, or nothing.
 void vtGroundPlan_AddShade(vtGroundPlan* plan, int source, const vtGroundRay* ray, int x, int y, int across,
                            bool isLit);
+/// All shade rays of a source are there, and none of its photons. Of sky and sun texels that were without a
+/// shadow have all the light then, whatever directions fell to them.
+void vtGroundPlan_EndShade(vtGroundPlan* plan, int source);
 /// A photon has come down with that share of its light.
 void vtGroundPlan_AddPhoton(vtGroundPlan* plan, int source, const vtGroundRay* ray, float x, float z,
                             vtVec3 share, int across);

@@ -93,21 +93,22 @@ static float smoothEdge(float u, float v)
 static void compose(const vtGroundPlan* plan, vtGroundMap* map)
 {
     const vtVec3 far = vtAdd(plan->irradiance[vt_groundSky], plan->irradiance[vt_groundSun]);
-    const bool lamps = plan->unshaded != NULL;
+    const float* byLamps = plan->unshaded[vt_groundLights];
     double sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < side * side; ++i) {
         const float u = ((float)(i % side) + 0.5f) / (float)side,
                     v = ((float)(i / side) + 0.5f) / (float)side;
         const vtVec3 sky = readMap(plan->sums[vt_groundSky], vtGroundSide(vt_groundSky), u, v);
         vtVec3 light = vtAdd(sky, vtMakeVec3(plan->sums[vt_groundSun] + 3 * i));
-        light = lamps ? vtAdd(light, vtMakeVec3(plan->sums[vt_groundLights] + 3 * i)) : light;
-        const vtVec3 whole = lamps ? vtAdd(far, vtMakeVec3(plan->unshaded + 3 * i)) : far;
+        light = byLamps != NULL ? vtAdd(light, vtMakeVec3(plan->sums[vt_groundLights] + 3 * i)) : light;
+        const vtVec3 whole = byLamps != NULL ? vtAdd(far, vtMakeVec3(byLamps + 3 * i)) : far;
         sum[0] += (double)light.x;
         sum[1] += (double)light.y;
         sum[2] += (double)light.z;
-        map->light[3 * i] = divide(light.x, whole.x);
-        map->light[3 * i + 1] = divide(light.y, whole.y);
-        map->light[3 * i + 2] = divide(light.z, whole.z);
+        // Photons of one wavelength may add up to a colour that sRGB does not have.
+        map->light[3 * i] = fmaxf(divide(light.x, whole.x), 0.0f);
+        map->light[3 * i + 1] = fmaxf(divide(light.y, whole.y), 0.0f);
+        map->light[3 * i + 2] = fmaxf(divide(light.z, whole.z), 0.0f);
     }
     const double texels = (double)side * (double)side;
     map->gathered = (vtVec3){(float)(sum[0] / texels), (float)(sum[1] / texels), (float)(sum[2] / texels)};
@@ -136,8 +137,8 @@ vtResult vtGroundPlan_Finish(vtGroundPlan* plan, vtGroundMap* map, vtError* erro
             blurByTent(plan->sums[light], vtGroundSide((vtGroundLight)light), copy);
         }
     }
-    if (plan->unshaded != NULL) {
-        blurByTent(plan->unshaded, side, copy);
+    if (plan->unshaded[vt_groundLights] != NULL) {
+        blurByTent(plan->unshaded[vt_groundLights], side, copy);
     }
     compose(plan, map);
     const int reach = (int)(0.05f * plan->ground.shadowSoftness * (float)side);

@@ -27,6 +27,7 @@ void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant varia
 {
     const vtProgramDef def = vtTracePhotons(variant);
     pass->program = vtProgramList_Start(programs, gl, &def);
+    pass->mostLight = (variant & vt_traceSpectral) != 0 ? (float)VT_PHOTON_MOST : 1.0f;
 }
 
 /// What one drawing needs, and where it is read to.
@@ -95,7 +96,7 @@ static void addShade(Rays* rays, int source, int count)
 
 /// `isOwn`: of the paths themselves, which count only where they have met something. False where memory is
 /// out.
-static bool addPhotons(Rays* rays, int source, bool isOwn, int count)
+static bool addPhotons(const vtGroundPass* pass, Rays* rays, int source, bool isOwn, int count)
 {
     bool ready = true;
     for (int i = 0; i < count * count; ++i) {
@@ -105,14 +106,13 @@ static bool addPhotons(Rays* rays, int source, bool isOwn, int count)
         }
         const vtGroundRay ray =
             vtGroundPlan_Ray(&rays->plan, source, vt_groundPhotons, i % count, i / count, count, 0);
+        const vtVec3 share = vtScale(vtLanding_Light(word), pass->mostLight);
         if (vtLanding_IsOpaque(word)) { // the sky lights opaque things without shadows
-            const vtVec3 flux = vtScale(ray.color, ray.area / ((float)count * (float)count));
+            const vtVec3 flux =
+                vtScale(vtMultiply(ray.color, share), ray.area / ((float)count * (float)count));
             ready = ready && (source == vt_groundSky || vtKeepLanding(&rays->caustics, word, flux));
             continue;
         }
-        const vtVec3 share =
-            vtScale((vtVec3){(float)(word[2] & 0xffffu), (float)(word[2] >> 16), (float)(word[3] & 0xffffu)},
-                    1.0f / 65535.0f);
         vtGroundPlan_AddPhoton(&rays->plan, source, &ray, asFloat(word[0]), asFloat(word[1]), share, count);
     }
     return ready;
@@ -152,7 +152,7 @@ static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, int s
         if (kind == vt_groundShade) {
             addShade(rays, source, count);
         } else {
-            ready = addPhotons(rays, source, i == 0, count) && ready;
+            ready = addPhotons(pass, rays, source, i == 0, count) && ready;
         }
     }
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
@@ -167,6 +167,7 @@ static vtResult followRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays,
             continue;
         }
         drawRays(pass, gl, rays, source, vt_groundShade);
+        vtGroundPlan_EndShade(&rays->plan, source);
         if (rays->plan.hasGlass) {
             ready = drawRays(pass, gl, rays, source, vt_groundPhotons) && ready;
         }

@@ -11,6 +11,7 @@ typedef struct vtGroundPass {
     bool isStale;  ///< what is in `buffer` is of another ground, scene or light
     vtFrame frame; ///< that it was made for
     const vtProgram* program;
+    float mostLight; ///< that a photon of it can have, of what it has to bring
     vtGroundBuffer buffer;
 } vtGroundPass;
 

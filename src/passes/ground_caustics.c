@@ -7,14 +7,12 @@
 
 bool vtKeepLanding(vtCaustics* caustics, const uint32_t* words, vtVec3 flux)
 {
-    const vtVec3 share = {(float)(words[2] & 0xffffu) / 65535.0f, (float)(words[2] >> 16) / 65535.0f,
-                          (float)(words[3] & 0xffffu) / 65535.0f};
     return vtCaustics_Add(caustics, &(vtCausticHit){.object = words[3] >> 20,
                                                     .triangle = words[0],
                                                     .u = (float)(words[1] & 0xffffu) / 65535.0f,
                                                     .v = (float)(words[1] >> 16) / 65535.0f,
                                                     .behind = (words[3] & 0x80000u) != 0,
-                                                    .flux = vtMultiply(flux, share)});
+                                                    .flux = flux});
 }
 
 /// The records of the scene's triangles, back from the GPU.

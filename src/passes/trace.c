@@ -62,7 +62,7 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
     const bool backdrop = VT_IS_FULL && (variant & vt_traceBackdrop) != 0;
     const bool ground = (variant & vt_traceGround) != 0, shade = (variant & vt_traceShade) != 0;
     const vtChunk* const chunks[] = {
-        photons ? &vtChunk_with_photons : NULL,
+        photons ? &vtChunk_photon_chance : NULL,
         ground ? &vtChunk_with_ground : NULL,
         (variant & vt_traceCounted) != 0 ? &vtChunk_count_reads : NULL,
         (variant & vt_traceStrict) != 0 ? &vtChunk_strict : &vtChunk_keeps_first,
@@ -118,9 +118,10 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
 
 vtProgramDef vtTracePhotons(vtTraceVariant variant)
 {
-    const unsigned ofScene =
-        vt_traceOneObject | vt_traceOpaque | vt_traceHeights | vt_traceOnlyHeights | vt_traceLooks;
-    return describe(variant & ofScene, true);
+    const unsigned ofScene = vt_traceOneObject | vt_traceOpaque | vt_traceHeights | vt_traceOnlyHeights |
+                             vt_traceLooks | vt_traceRough | vt_traceSpectral;
+    const unsigned footprint = (variant & vt_traceRough) != 0 ? vt_traceFootprint : 0;
+    return describe((variant & ofScene) | footprint, true);
 }
 
 void vtTracePass_Start(vtTracePass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs)

@@ -1,17 +1,22 @@
-// The light on the ground below the reference's scene: all parts of every photon's light are followed,
-// without chance, and there are more of them than the renderer has. The sources: src/light/ground.c.
+// The light on the ground below the reference's scene: all parts of every photon's light are followed, and
+// there are more of them than the renderer has. The sources: src/light/ground.c. Chance decides about
+// facets and wavelengths alone.
 #include <float.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "lab/reference/reference_chance.h"
 #include "lab/reference/reference_place.h"
 #include "lab/reference/reference_threads.h"
 #include "mesh/mesh_triangle.h"
 
 /// Rays along a side of their square.
 enum { shadeAcross = 1024, sunPhotons = 1536, skyPhotons = 768, seed = 0x1e3779b9 };
+
+/// Photons in a column whose chances are spread evenly.
+enum { strip = 64 };
 
 /// The rays of one light of one kind, row by row.
 typedef struct GroundJob {
@@ -71,7 +76,9 @@ static void addPath(GroundJob* job, const vtReferencePath* path, int row)
 
 static bool followPhotons(GroundJob* job, int row, vtPathList* list)
 {
-    if (!vtFollowPaths(job->reference, job->rules, list)) {
+    vtPathRules rules = *job->rules;
+    rules.sample = (uint32_t)row % strip;
+    if (!vtFollowPaths(job->reference, &rules, list)) {
         return false;
     }
     pthread_mutex_lock(&job->lock);
@@ -113,7 +120,8 @@ static void* workGround(void* data)
         vtPathList_Clear(&list);
         for (int x = 0; x < job->across && ready; ++x) {
             const vtGroundRay ray = rayOf(job, x, row);
-            const vtReferencePath path = vtMakePath(ray.origin, ray.direction, (vtMedia){{0}}, (uint32_t)x);
+            vtReferencePath path = vtMakePath(ray.origin, ray.direction, (vtMedia){{0}}, (uint32_t)x);
+            path.key = vtMixWords((uint32_t)x, (uint32_t)(row / strip));
             ready = vtPathList_Add(&list, &path);
         }
         if (ready && job->rays == vt_groundShade) {
@@ -206,10 +214,13 @@ vtResult vtReference_LightGround(const vtReference* reference, const vtPathRules
     dark.illumination = NULL; // what surfaces send is not looked at
     bool ready = true;
     for (int source = 0; source < plan.sourceCount && ready; ++source) {
-        if (!vtGroundPlan_IsDark(&plan, source)) {
-            ready = followRays(reference, &dark, threads, &plan, &photons, source, vt_groundShade) &&
-                    (!plan.hasGlass ||
-                     followRays(reference, &dark, threads, &plan, &photons, source, vt_groundPhotons));
+        if (vtGroundPlan_IsDark(&plan, source)) {
+            continue;
+        }
+        ready = followRays(reference, &dark, threads, &plan, &photons, source, vt_groundShade);
+        vtGroundPlan_EndShade(&plan, source);
+        if (ready && plan.hasGlass) {
+            ready = followRays(reference, &dark, threads, &plan, &photons, source, vt_groundPhotons);
         }
     }
     const float spacing = fmaxf(vtLength(vtSub(plan.glassHigh, plan.glassLow)) / 300.0f, FLT_MIN);

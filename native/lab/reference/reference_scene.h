@@ -152,8 +152,9 @@ void vtDestroyPathList(vtPathList* list);
 /// to it. False where memory is short.
 bool vtFollowPaths(const vtReference* reference, const vtPathRules* rules, vtPathList* list);
 
-/// What falls on a ground below the scene, and through glass on opaque things: photons that follow the rules.
-/// Both maps are to be destroyed. Fails as vtPlanGround does; then they are zeroed.
+/// What falls on a ground below the scene, and through glass on opaque things: photons that follow the rules,
+/// of which `sample` does not count. Both maps are to be destroyed. Fails as vtPlanGround does; then they are
+/// zeroed.
 vtResult vtReference_LightGround(const vtReference* reference, const vtPathRules* rules,
                                  const vtGround* ground, const vtEnvironment* environment, int threads,
                                  vtGroundMap* map, vtCausticMap* caustics, vtError* error);

@@ -392,8 +392,10 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
     atomic_init(&job.nextTile, 0);
     atomic_init(&job.failed, false);
     const bool disperses = findGlass(reference, frame, &job.isRough);
-    job.spectrum = disperses && job.samples > 1 ? malloc(sizeof *job.spectrum) : NULL;
-    atomic_store(&job.failed, disperses && job.samples > 1 && job.spectrum == NULL);
+    const bool hasGround = def->ground != NULL && def->environment != NULL;
+    const bool parts = disperses && (job.samples > 1 || hasGround);
+    job.spectrum = parts ? malloc(sizeof *job.spectrum) : NULL;
+    atomic_store(&job.failed, parts && job.spectrum == NULL);
     if (job.spectrum != NULL) {
         vtMakeSpectrum(job.spectrum);
         job.rules.spectrum = job.spectrum;
@@ -406,8 +408,10 @@ vtResult vtReference_Trace(const vtReference* reference, const vtReferenceDef* d
                             &job.camera, vtSpace_Enter(&reference->space, low),
                             vtSpace_Enter(&reference->space, high), reference->space.unit);
     }
-    if (def->ground != NULL && def->environment != NULL) {
-        result = vtReference_LightGround(reference, &job.rules, def->ground, def->environment, def->threads,
+    if (hasGround) {
+        vtPathRules photons = job.rules;
+        photons.chance = job.isRough; // or glass disperses
+        result = vtReference_LightGround(reference, &photons, def->ground, def->environment, def->threads,
                                          &job.ground, &job.caustics, error);
         job.rules.caustics = &job.caustics;
     }

@@ -2,6 +2,7 @@
 #include "gl/state.h"
 #include "lab/metrics/metrics_image.h"
 #include "lab/reference/reference_scene.h"
+#include "lab/reference/reference_spectrum.h"
 #include "lit_scenes.h"
 #include "render/renderer.h"
 
@@ -34,8 +35,27 @@ static double changeOf(const vtGroundMap* map)
     return sum / (3.0 * VT_GROUND_SIDE * VT_GROUND_SIDE);
 }
 
+/// How far two maps lie apart in the mean of 4 x 4 texels, each colour by itself.
+static double distanceOf(const vtGroundMap* a, const vtGroundMap* b)
+{
+    enum { block = 4 };
+    double sum = 0.0;
+    for (int i = 0; i < 3 * VT_GROUND_SIDE * VT_GROUND_SIDE / (block * block); ++i) {
+        const int channel = i % 3, column = i / 3 % (VT_GROUND_SIDE / block),
+                  row = i / 3 / (VT_GROUND_SIDE / block);
+        double difference = 0.0;
+        for (int k = 0; k < block * block; ++k) {
+            const int texel = (block * row + k / block) * VT_GROUND_SIDE + block * column + k % block;
+            difference += (double)a->light[3 * texel + channel] - (double)b->light[3 * texel + channel];
+        }
+        sum += fabs(difference);
+    }
+    return sum / (3.0 * VT_GROUND_SIDE * VT_GROUND_SIDE);
+}
+
+/// `chance`: some glass is rough, or disperses.
 static void compareMaps(Fixture* fixture, const vtReference* reference, const vtFrame* frame,
-                        const vtGround* ground, const vtEnvironment* environment)
+                        const vtGround* ground, const vtEnvironment* environment, bool chance)
 {
     vtRenderer* renderer = fixture->renderer;
     vtGroundMap drawn, traced;
@@ -47,7 +67,11 @@ static void compareMaps(Fixture* fixture, const vtReference* reference, const vt
                                    &drawn, &caustics, &error),
               error);
     vtDestroyCausticMap(&caustics);
-    const vtPathRules rules = {.maxEvents = vtResolveFrame(frame).maxEvents,
+    static vtSpectrum spectrum;
+    vtMakeSpectrum(&spectrum);
+    const vtPathRules rules = {.spectrum = &spectrum,
+                               .chance = chance,
+                               .maxEvents = vtResolveFrame(frame).maxEvents,
                                .fresnel = true,
                                .exposure = 1.0f,
                                .roughness = -1.0f,
@@ -55,11 +79,16 @@ static void compareMaps(Fixture* fixture, const vtReference* reference, const vt
     assert_ok(vtReference_LightGround(reference, &rules, ground, environment, 0, &traced, &caustics, &error),
               error);
     vtDestroyCausticMap(&caustics);
-    const double all = (double)(drawn.gathered.x / traced.gathered.x);
-    print_message("light on the map %.4f of the reference's, what is changed %.4f of %.4f\n", all,
-                  changeOf(&drawn), changeOf(&traced));
-    assert_true(fabs(all - 1.0) < 0.03);
+    const double reds = (double)(drawn.gathered.x / traced.gathered.x),
+                 blues = (double)(drawn.gathered.z / traced.gathered.z);
+    const double apart = distanceOf(&drawn, &traced);
+    print_message(
+        "light on the map %.4f of the reference's, blue %.4f; what is changed %.4f of %.4f, they are "
+        "%.4f apart\n",
+        reds, blues, changeOf(&drawn), changeOf(&traced), apart);
+    assert_true(fabs(reds - 1.0) < 0.03 && fabs(blues - 1.0) < 0.03);
     assert_true(fabs(changeOf(&drawn) / changeOf(&traced) - 1.0) < 0.1);
+    assert_true(apart < 0.2 * changeOf(&traced));
     vtDestroyGroundMap(&drawn);
     vtDestroyGroundMap(&traced);
 }
@@ -84,7 +113,7 @@ static void comparePictures(Fixture* fixture, const vtReference* reference, cons
     vtDestroyReferenceImage(&image);
 }
 
-static void checkScene(Fixture* fixture, vtScene* scene, const vtGround* ground, vtFrame frame,
+static void checkScene(Fixture* fixture, vtScene* scene, const vtGround* ground, vtFrame frame, bool chance,
                        bool withPicture)
 {
     vtEnvironment studio;
@@ -96,7 +125,7 @@ static void checkScene(Fixture* fixture, vtScene* scene, const vtGround* ground,
     assert_ok(vtRenderer_SetGround(fixture->renderer, ground, &error), error);
     assert_ok(vtRenderer_DrawImage(fixture->renderer, &frame, fixture->pixels, &error), error);
     assert_ok(vtCreateReference(scene, &reference, &error), error);
-    compareMaps(fixture, reference, &frame, ground, &studio);
+    compareMaps(fixture, reference, &frame, ground, &studio, chance);
     if (withPicture) { // for which the reference follows its photons again
         comparePictures(fixture, reference, &frame, ground, &studio);
     }
@@ -112,7 +141,7 @@ static void checkShape(Fixture* fixture, const char* shape, bool withPicture)
     const vtMaterial glass = vtDefaultMaterial();
     vtScene scene = {0};
     addShape(&scene, shape, &glass, one, middle);
-    checkScene(fixture, &scene, &ground, viewFromAbove(), withPicture);
+    checkScene(fixture, &scene, &ground, viewFromAbove(), false, withPicture);
 }
 
 static void theGroundBelowABall(void** state)
@@ -142,7 +171,7 @@ static void theGroundByLamps(void** state)
                                .color = {2.0f, 2.5f, 3.0f},
                                .innerCone = 0.3f,
                                .outerCone = 0.6f});
-    checkScene(*state, &scene, &ground, viewFromAbove(), false);
+    checkScene(*state, &scene, &ground, viewFromAbove(), false, false);
 }
 
 /// A ball and a cube of glass before a wall and a matt ball of many triangles, seen without the ground.
@@ -158,7 +187,31 @@ static void lightOnAWall(void** state)
     addBox(&scene, &glass, (vtVec3){0.3f, 0.3f, 0.3f}, (vtVec3){0.6f, 0.0f, 0.2f});
     addShape(&scene, "sphere", &matt, (vtVec3){0.4f, 0.4f, 0.4f}, (vtVec3){-0.6f, -0.5f, -0.6f});
     frame.view = (vtView){{0.6f, 0.5f, 3.4f}, {0.0f, -0.1f, -1.0f}, 36.0f};
-    checkScene(*state, &scene, &ground, frame, true);
+    checkScene(*state, &scene, &ground, frame, false, true);
+}
+
+/// A ball of frosted glass, rather low.
+static void lightThroughFrost(void** state)
+{
+    const vtGround ground = sunnyGround();
+    vtMaterial rough = vtDefaultMaterial();
+    vtScene scene = {0};
+    rough.roughness = 0.5f;
+    addShape(&scene, "sphere", &rough, (vtVec3){0.5f, 0.5f, 0.5f}, (vtVec3){0.0f, 0.0f, 0.0f});
+    checkScene(*state, &scene, &ground, viewFromAbove(), true, false);
+}
+
+/// Light comes in at the top of a box and leaves by two sides, each colour in another direction.
+static void lightThroughAPrism(void** state)
+{
+    vtGround ground = sunnyGround();
+    vtMaterial dispersing = vtDefaultMaterial();
+    vtScene scene = {0};
+    ground.height = -0.8f;
+    dispersing.ior = 1.1f;
+    dispersing.dispersion = 15.0f;
+    addBox(&scene, &dispersing, (vtVec3){0.4f, 0.2f, 0.4f}, (vtVec3){0.0f, 0.0f, 0.0f});
+    checkScene(*state, &scene, &ground, viewFromAbove(), true, false);
 }
 #endif
 
@@ -170,6 +223,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(theGroundBelowAGoblet, setUp, tearDown),
         cmocka_unit_test_setup_teardown(theGroundByLamps, setUp, tearDown),
         cmocka_unit_test_setup_teardown(lightOnAWall, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(lightThroughFrost, setUp, tearDown),
+        cmocka_unit_test_setup_teardown(lightThroughAPrism, setUp, tearDown),
 #endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -115,7 +115,8 @@ static void littleRoughnessIsSmooth(void** state)
     }
 }
 
-// All wavelengths together are white; without dispersion the picture is that of any other glass.
+// All wavelengths together are white; without dispersion the picture is that of any other glass, and beside
+// the glass (the first row) it is with it, too.
 static void wavelengthsSumToWhite(void** state)
 {
     Fixture* fixture = *state;
@@ -138,6 +139,7 @@ static void wavelengthsSumToWhite(void** state)
         frame.dispersion = 2.0f;
         drawShape(fixture, &frame);
         assert_memory_not_equal(plain, fixture->pixels, sizeof plain);
+        assert_memory_equal(plain, fixture->pixels, 4 * (size_t)frame.width);
 
         setWhite(fixture);
         frame.exposure = -1.0f;

@@ -1,1 +1,0 @@
-#define WITH_PHOTONS
