@@ -4,7 +4,9 @@
 //   Martin Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018: steps of the root of x^8 = x + 1.
 #define WITH_PHOTONS
 
-// A photon's number on the curve.
+uniform int u_groundSeed; // of the drawing: 0 to 3
+
+// A photon's number on the curve, where four drawings have a place each.
 uint numberOfPhoton()
 {
     uvec2 v = uvec2(gl_FragCoord.xy);
@@ -12,7 +14,7 @@ uint numberOfPhoton()
     v = (v | v << 4u) & 0x0f0f0f0fu;
     v = (v | v << 2u) & 0x33333333u;
     v = (v | v << 1u) & 0x55555555u;
-    return v.x | v.y << 1u;
+    return 4u * (v.x | v.y << 1u) + uint(u_groundSeed);
 }
 
 // For its wavelength: of 32.

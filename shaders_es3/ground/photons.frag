@@ -30,8 +30,9 @@ uint sampleOf(uvec2 pixel, uint across)
         uvec2 b = (pixel >> bit) & 1u;
         order = 4u * order + 2u * (b.x ^ b.y) + b.y;
     }
-    uint part = uint(VT_GROUND_SAMPLES / 64);
-    return order * part + scramble(pixel.x + pixel.y * across) % part;
+    uint seed = uint(u_groundSeed), part = uint(VT_GROUND_SAMPLES / 64);
+    order ^= seed; // other strata in each 4 x 4 of them
+    return order * part + scramble(pixel.x + pixel.y * across + seed) % part;
 }
 
 // The directions of a cone, as evenly as the square.

@@ -31,10 +31,12 @@ static bool allocateSums(vtGroundPlan* plan)
     bool ready = true;
     for (int light = 0; light < vt_groundLightCount; ++light) {
         const size_t side = (size_t)vtGroundSide((vtGroundLight)light);
-        const bool any = light != vt_groundLights || plan->sourceCount > 2;
-        plan->sums[light] = any ? vtAllocateZeroed(side * side, 3 * sizeof(float)) : NULL;
-        plan->unshaded[light] = any ? vtAllocateZeroed(side * side, 3 * sizeof(float)) : NULL;
-        ready = ready && (!any || (plan->sums[light] != NULL && plan->unshaded[light] != NULL));
+        const bool isThere = light != vt_groundLights || plan->sourceCount > 2;
+        const bool isShaded = isThere && light != vt_groundBent;
+        plan->sums[light] = isThere ? vtAllocateZeroed(side * side, 3 * sizeof(float)) : NULL;
+        plan->unshaded[light] = isShaded ? vtAllocateZeroed(side * side, 3 * sizeof(float)) : NULL;
+        ready =
+            ready && (plan->sums[light] != NULL || !isThere) && (plan->unshaded[light] != NULL || !isShaded);
         for (int rays = 0; rays < vt_groundRaysCount && light < 2; ++rays) {
             plan->samples[light][rays] = vtAllocate(VT_GROUND_SAMPLES, sizeof(vtLightSample));
             ready = ready && plan->samples[light][rays] != NULL;
@@ -250,6 +252,7 @@ static uint32_t sampleOf(uint32_t x, uint32_t y, uint32_t across, uint32_t seed)
         const uint32_t a = (x >> bit) & 1u, b = (y >> bit) & 1u;
         order = 4u * order + 2u * (a ^ b) + b;
     }
+    order ^= seed & 3u; // other strata in each 4 x 4 of them
     const uint32_t part = VT_GROUND_SAMPLES / 64;
     return order * part + scramble(x + y * across + seed) % part;
 }
@@ -339,7 +342,7 @@ void vtGroundPlan_EndShade(vtGroundPlan* plan, int source)
 void vtGroundPlan_AddPhoton(vtGroundPlan* plan, int source, const vtGroundRay* ray, float x, float z,
                             vtVec3 share, int across)
 {
-    const vtGroundLight light = vtGroundLightOf(source);
+    const vtGroundLight light = source == vt_groundSky ? vt_groundBent : vtGroundLightOf(source);
     const int count = vtGroundSide(light);
     const float texels = (float)count / plan->size;
     const float column = (x - plan->lowX) * texels - 0.5f, row = (z - plan->lowZ) * texels - 0.5f;

@@ -10,6 +10,7 @@ typedef enum vtGroundLight {
     vt_groundSky = 0,
     vt_groundSun,
     vt_groundLights, ///< of files
+    vt_groundBent,   ///< the sky's photons, which are few for all its directions
     vt_groundLightCount
 } vtGroundLight;
 
@@ -47,7 +48,7 @@ void vtDestroyGroundPlan(vtGroundPlan* plan);
 /// Texels along a side of what is gathered of a light.
 static inline int vtGroundSide(vtGroundLight light)
 {
-    return light == vt_groundSky ? VT_GROUND_SIDE / 4 : VT_GROUND_SIDE;
+    return light == vt_groundSky || light == vt_groundBent ? VT_GROUND_SIDE / 4 : VT_GROUND_SIDE;
 }
 
 /// Of a source.

@@ -1,5 +1,6 @@
 // From what was gathered of the light on the ground to the map of it. It is blurred by a tent of three:
-// together with the spread over four texels a smooth kernel three texels wide.
+// together with the spread over four texels a smooth kernel three texels wide. What glass bends of the sky is
+// blurred once more, by the mean of three texels twice.
 #include "light/ground_map.h"
 
 #include <string.h>
@@ -98,7 +99,8 @@ static void compose(const vtGroundPlan* plan, vtGroundMap* map)
     for (int i = 0; i < side * side; ++i) {
         const float u = ((float)(i % side) + 0.5f) / (float)side,
                     v = ((float)(i / side) + 0.5f) / (float)side;
-        const vtVec3 sky = readMap(plan->sums[vt_groundSky], vtGroundSide(vt_groundSky), u, v);
+        const vtVec3 sky = vtAdd(readMap(plan->sums[vt_groundSky], vtGroundSide(vt_groundSky), u, v),
+                                 readMap(plan->sums[vt_groundBent], vtGroundSide(vt_groundBent), u, v));
         vtVec3 light = vtAdd(sky, vtMakeVec3(plan->sums[vt_groundSun] + 3 * i));
         light = byLamps != NULL ? vtAdd(light, vtMakeVec3(plan->sums[vt_groundLights] + 3 * i)) : light;
         const vtVec3 whole = byLamps != NULL ? vtAdd(far, vtMakeVec3(byLamps + 3 * i)) : far;
@@ -139,6 +141,9 @@ vtResult vtGroundPlan_Finish(vtGroundPlan* plan, vtGroundMap* map, vtError* erro
     }
     if (plan->unshaded[vt_groundLights] != NULL) {
         blurByTent(plan->unshaded[vt_groundLights], side, copy);
+    }
+    for (int i = 0; i < 2; ++i) {
+        blur(plan->sums[vt_groundBent], vtGroundSide(vt_groundBent), 1, copy);
     }
     compose(plan, map);
     const int reach = (int)(0.05f * plan->ground.shadowSoftness * (float)side);

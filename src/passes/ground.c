@@ -10,11 +10,11 @@
 #include "passes/ground_caustics.h"
 
 /// Rays along a side of their square: 2 x 2 shade rays a texel of a sun, 8 x 8 of the sky. A page, which
-/// waits for them, takes a quarter of that.
+/// waits for them, takes a quarter of that, and of what would show noise four drawings.
 #ifdef __EMSCRIPTEN__
-enum { across = 512, targetCount = 3 };
+enum { across = 512, targetCount = 3, mostDrawings = 4 };
 #else
-enum { across = 1024, targetCount = 3 };
+enum { across = 1024, targetCount = 3, mostDrawings = 1 };
 #endif
 
 bool vtGroundPass_IsStale(const vtGroundPass* pass, const vtFrame* frame)
@@ -28,6 +28,7 @@ void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant varia
     const vtProgramDef def = vtTracePhotons(variant);
     pass->program = vtProgramList_Start(programs, gl, &def);
     pass->mostLight = (variant & vt_traceSpectral) != 0 ? (float)VT_PHOTON_MOST : 1.0f;
+    pass->hasChance = (variant & (vt_traceSpectral | vt_traceRough)) != 0;
 }
 
 /// What one drawing needs, and where it is read to.
@@ -84,19 +85,20 @@ static float asFloat(uint32_t word)
     return number;
 }
 
-static void addShade(Rays* rays, int source, int count)
+static void addShade(Rays* rays, int source, int count, uint32_t seed)
 {
     for (int i = 0; i < count * count; ++i) {
         const uint32_t state = rays->words[4 * (size_t)i + 3] >> 16;
         const int x = i % count, y = i / count;
-        const vtGroundRay ray = vtGroundPlan_Ray(&rays->plan, source, vt_groundShade, x, y, count, 0);
+        const vtGroundRay ray = vtGroundPlan_Ray(&rays->plan, source, vt_groundShade, x, y, count, seed);
         vtGroundPlan_AddShade(&rays->plan, source, &ray, x, y, count, state == 1); // out, and nothing met
     }
 }
 
 /// `isOwn`: of the paths themselves, which count only where they have met something. False where memory is
 /// out.
-static bool addPhotons(const vtGroundPass* pass, Rays* rays, int source, bool isOwn, int count)
+static bool addPhotons(const vtGroundPass* pass, Rays* rays, int source, bool isOwn, int count, int drawings,
+                       uint32_t seed)
 {
     bool ready = true;
     for (int i = 0; i < count * count; ++i) {
@@ -105,8 +107,8 @@ static bool addPhotons(const vtGroundPass* pass, Rays* rays, int source, bool is
             continue;
         }
         const vtGroundRay ray =
-            vtGroundPlan_Ray(&rays->plan, source, vt_groundPhotons, i % count, i / count, count, 0);
-        const vtVec3 share = vtScale(vtLanding_Light(word), pass->mostLight);
+            vtGroundPlan_Ray(&rays->plan, source, vt_groundPhotons, i % count, i / count, count, seed);
+        const vtVec3 share = vtScale(vtLanding_Light(word), pass->mostLight / (float)drawings);
         if (vtLanding_IsOpaque(word)) { // the sky lights opaque things without shadows
             const vtVec3 flux =
                 vtScale(vtMultiply(ray.color, share), ray.area / ((float)count * (float)count));
@@ -120,7 +122,7 @@ static bool addPhotons(const vtGroundPass* pass, Rays* rays, int source, bool is
 
 /// What the shader has to know of a source.
 static void setUniforms(const vtGroundPass* pass, const vtGL* gl, const vtGroundPlan* plan, int source,
-                        vtGroundRays kind, int count)
+                        vtGroundRays kind, int count, uint32_t seed)
 {
     const vtVec3 low = plan->glassLow, high = plan->glassHigh;
     const vtGroundBeam beam = vtGroundPlan_Beam(plan, source);
@@ -134,15 +136,18 @@ static void setUniforms(const vtGroundPass* pass, const vtGL* gl, const vtGround
     gl->Uniform4fv(pass->program->uniforms[2], 1, numbers);
     gl->Uniform4fv(pass->program->uniforms[3], 2, box);
     gl->Uniform4fv(pass->program->uniforms[4], 2, light);
+    gl->Uniform1i(pass->program->uniforms[5], (GLint)seed);
 }
 
-static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, int source, vtGroundRays kind)
+/// One of so many drawings; `seed`: its number.
+static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, int source, vtGroundRays kind,
+                     int drawings, uint32_t seed)
 {
     bool ready = true;
     const int count = vtGroundPlan_Across(&rays->plan, source, kind, across);
     vtBindFramebuffer(gl, rays->framebuffer, count, count);
     gl->UseProgram(pass->program->name);
-    setUniforms(pass, gl, &rays->plan, source, kind, count);
+    setUniforms(pass, gl, &rays->plan, source, kind, count, seed);
     vtTexture_Bind(&rays->lights, gl, vt_samplerGroundLights);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
     const int targets = kind == vt_groundPhotons ? targetCount : 1;
@@ -150,9 +155,9 @@ static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, int s
         gl->ReadBuffer(GL_COLOR_ATTACHMENT0 + (GLenum)i);
         gl->ReadPixels(0, 0, count, count, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rays->words);
         if (kind == vt_groundShade) {
-            addShade(rays, source, count);
+            addShade(rays, source, count, seed);
         } else {
-            ready = addPhotons(pass, rays, source, i == 0, count) && ready;
+            ready = addPhotons(pass, rays, source, i == 0, count, drawings, seed) && ready;
         }
     }
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
@@ -166,10 +171,14 @@ static vtResult followRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays,
         if (vtGroundPlan_IsDark(&rays->plan, source)) {
             continue;
         }
-        drawRays(pass, gl, rays, source, vt_groundShade);
+        const int ofShade = source == vt_groundSky ? mostDrawings : 1;
+        const int ofPhotons = source == vt_groundSky || pass->hasChance ? mostDrawings : 1;
+        for (int i = 0; i < ofShade; ++i) {
+            drawRays(pass, gl, rays, source, vt_groundShade, ofShade, (uint32_t)i);
+        }
         vtGroundPlan_EndShade(&rays->plan, source);
-        if (rays->plan.hasGlass) {
-            ready = drawRays(pass, gl, rays, source, vt_groundPhotons) && ready;
+        for (int i = 0; i < ofPhotons && rays->plan.hasGlass; ++i) {
+            ready = drawRays(pass, gl, rays, source, vt_groundPhotons, ofPhotons, (uint32_t)i) && ready;
         }
     }
     return ready ? vt_ok : vtFail(error, vt_errorMemory, "ground: out of memory for photons");

@@ -12,6 +12,7 @@ typedef struct vtGroundPass {
     vtFrame frame; ///< that it was made for
     const vtProgram* program;
     float mostLight; ///< that a photon of it can have, of what it has to bring
+    bool hasChance;  ///< photons leave something to chance
     vtGroundBuffer buffer;
 } vtGroundPass;
 

@@ -111,7 +111,8 @@ static vtProgramDef describe(vtTraceVariant variant, bool photons)
                         .vertex = {&vtChunk_screen_vert},
                         .uniforms = {"u_branches", "u_ground", photons ? "u_groundRays" : "u_groundMatt",
                                      photons ? "u_groundBox" : "u_sun",
-                                     photons ? "u_groundLight" : "u_wavelengths", "u_backdropPlace"}};
+                                     photons ? "u_groundLight" : "u_wavelengths",
+                                     photons ? "u_groundSeed" : "u_backdropPlace"}};
     vtProgramDef_SetFragment(&def, chunks, sizeof chunks / sizeof chunks[0]);
     return def;
 }
