@@ -10,17 +10,19 @@
 #include "passes/ground_caustics.h"
 
 /// Rays along a side of their square: 2 x 2 shade rays a texel of a sun, 8 x 8 of the sky. A page, which
-/// waits for them, takes a quarter of that, and of what would show noise four drawings.
+/// waits for them, takes a quarter of that, and of what would show noise four drawings; while things move
+/// fewer photons, in one.
 #ifdef __EMSCRIPTEN__
-enum { across = 512, targetCount = 3, mostDrawings = 4 };
+enum { across = 512, movingAcross = 256, targetCount = 3, mostDrawings = 4 };
 #else
-enum { across = 1024, targetCount = 3, mostDrawings = 1 };
+enum { across = 1024, movingAcross = across, targetCount = 3, mostDrawings = 1 };
 #endif
 
 bool vtGroundPass_IsStale(const vtGroundPass* pass, const vtFrame* frame)
 {
-    return pass->isStale || pass->frame.ior != frame->ior || pass->frame.fresnel != frame->fresnel ||
-           pass->frame.maxEvents < frame->maxEvents || pass->frame.technique != frame->technique;
+    return pass->isStale || pass->isCoarse || pass->frame.ior != frame->ior ||
+           pass->frame.fresnel != frame->fresnel || pass->frame.maxEvents < frame->maxEvents ||
+           pass->frame.technique != frame->technique;
 }
 
 void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs)
@@ -144,7 +146,8 @@ static bool drawRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays, int s
                      int drawings, uint32_t seed)
 {
     bool ready = true;
-    const int count = vtGroundPlan_Across(&rays->plan, source, kind, across);
+    const int most = pass->isCoarse ? movingAcross : across;
+    const int count = vtGroundPlan_Across(&rays->plan, source, kind, most);
     vtBindFramebuffer(gl, rays->framebuffer, count, count);
     gl->UseProgram(pass->program->name);
     setUniforms(pass, gl, &rays->plan, source, kind, count, seed);
@@ -171,8 +174,9 @@ static vtResult followRays(const vtGroundPass* pass, const vtGL* gl, Rays* rays,
         if (vtGroundPlan_IsDark(&rays->plan, source)) {
             continue;
         }
-        const int ofShade = source == vt_groundSky ? mostDrawings : 1;
-        const int ofPhotons = source == vt_groundSky || pass->hasChance ? mostDrawings : 1;
+        const int several = pass->isCoarse ? 1 : mostDrawings;
+        const int ofShade = source == vt_groundSky ? several : 1;
+        const int ofPhotons = source == vt_groundSky || pass->hasChance ? several : 1;
         for (int i = 0; i < ofShade; ++i) {
             drawRays(pass, gl, rays, source, vt_groundShade, ofShade, (uint32_t)i);
         }
@@ -234,6 +238,8 @@ vtResult vtGroundPass_Draw(vtGroundPass* pass, const vtGL* gl, const vtSceneBuff
 {
     vtGroundMap map;
     vtCausticMap caustics;
+    pass->isCoarse = movingAcross < across && pass->isFresh && pass->isStale;
+    pass->isFresh = true;
     vtResult result = vtGroundPass_MakeMap(pass, gl, scene, environment, &map, &caustics, error);
     if (result == vt_ok) {
         result = vtGroundBuffer_Set(&pass->buffer, gl, &map, error);

@@ -9,6 +9,8 @@ typedef struct vtGroundPass {
     vtGround ground;
     bool isThere;  ///< there is a ground
     bool isStale;  ///< what is in `buffer` is of another ground, scene or light
+    bool isFresh;  ///< it was made for the frame drawn last: if it has to be made again, things move
+    bool isCoarse; ///< of fewer rays, as things moved: once they do not, it is made anew
     vtFrame frame; ///< that it was made for
     const vtProgram* program;
     float mostLight; ///< that a photon of it can have, of what it has to bring
@@ -16,8 +18,8 @@ typedef struct vtGroundPass {
     vtGroundBuffer buffer;
 } vtGroundPass;
 
-/// Does the map have to be made anew for the frame? One of more events stays: a page that draws with fewer
-/// while things move would make it again and again.
+/// Does the map have to be made anew for the frame? (Where it does not, the caller unsets isFresh.) One of
+/// more events stays: a page that draws with fewer while things move would make it again and again.
 bool vtGroundPass_IsStale(const vtGroundPass* pass, const vtFrame* frame);
 void vtGroundPass_Start(vtGroundPass* pass, const vtGL* gl, vtTraceVariant variant, vtProgramList* programs);
 

@@ -159,6 +159,7 @@ vtResult vtRenderer_Prepare(vtRenderer* renderer, const vtFrame* asked, bool* re
 static vtResult drawGround(vtRenderer* renderer, const vtFrame* frame, vtError* error)
 {
     if (!vtRenderer_ShowsGround(renderer, frame) || !vtGroundPass_IsStale(&renderer->ground, frame)) {
+        renderer->ground.isFresh = false;
         return vt_ok;
     }
     vtRenderer_UploadSample(renderer, 0, 1);
