@@ -16,6 +16,8 @@ const skip = skipWithout(
   [existsSync(chromiumPath), chromiumPath],
 );
 
+const long = process.env.VITRINE_LONG === '1'; // nothing left out
+
 const page = `<!doctype html><html lang="en"><title>Test</title><link rel="icon" href="data:,">
   <style>body { margin: 0 } vitrine-viewer { width: 32px; height: 32px; display: block }</style>
   <script type="module" src="/element/vitrine-viewer.js"></script><div id="place"></div>`;
@@ -80,12 +82,12 @@ function simulate() {
   wrap('getExtension', (call, name) => (fault.isTiny && /float|parallel/.test(name) ? null : call()));
   wrap('getSupportedExtensions', (call) => (fault.isTiny ? [] : call()));
 
-  // The context is lost at the n-th call of any of those, and given back after a while where it shall be.
+  // The context is lost at the n-th call of any of those, or of one, and given back after a while.
   const loses = ['texStorage2D', 'bufferData', 'shaderSource', 'linkProgram', 'drawArrays', 'fenceSync'];
   for (const name of [...loses, 'getProgramParameter', 'getSyncParameter']) {
     const before = prototype[name];
     prototype[name] = function (...values) {
-      const isLost = fault.name === 'loss' && ++fault.calls === fault.at;
+      const isLost = (fault.name === 'loss' || fault.name === `loss in ${name}`) && ++fault.calls === fault.at;
       if (isLost) {
         const loss = this.getExtension('WEBGL_lose_context');
         loss.loseContext();
@@ -123,7 +125,7 @@ function simulate() {
     window.place.append(viewer);
     await until(() => `${technique}, ${name} ${at}: ${says(viewer)}`, () => viewer.loaded || says(viewer));
     const said = says(viewer), hit = fault.calls >= at;
-    const seen = viewer.loaded && !said && name !== 'loss' ? await pixels(viewer).catch(({ message }) => message) : expected;
+    const seen = viewer.loaded && !said && !name.startsWith('loss') ? await pixels(viewer).catch(({ message }) => message) : expected;
     window.setFault('', 0);
     if (/graphics context/.test(said)) await until(() => `${technique}, ${name} ${at}, back: ${says(viewer)}`, () => viewer.loaded && !says(viewer));
     Object.assign(viewer, { environmentImage: 'sky' });
@@ -140,8 +142,8 @@ function simulate() {
     await new Promise((done) => setTimeout(done));
     return { hit, said: said || (/GL_/.test(seen) ? seen : ''), isTold: !said || errors.length > 0, errors, wrong: seen !== expected && !/GL_/.test(seen), stays: again !== expected };
   };
-  window.expect = async (technique) => {
-    const viewer = make(technique);
+  window.expect = async (technique, more = {}) => {
+    const viewer = Object.assign(make(technique), more);
     window.place.append(viewer);
     await until(() => says(viewer), () => viewer.loaded);
     const seen = await pixels(viewer);
@@ -189,21 +191,30 @@ describe('the element where WebGL fails', { skip }, () => {
     return opened;
   }
 
-  /** All calls of that name in turn, every `stride`-th. */
-  const failEach = (opened, names, ids, stride, most) => opened.evaluate(async ([calls, techniquesToTry, step, limit]) => {
-    const kept = await window.keep(), before = await window.pixels(kept), answers = [];
+  /** All calls of that name in turn; isFresh: each in a context of its own, with programs to compile. */
+  const failEach = (opened, names, ids, isFresh = false) => opened.evaluate(async ([calls, techniquesToTry, isAnew]) => {
+    const answers = [];
+    let kept = null, before, others = true;
+    const renew = async () => {
+      kept?.remove();
+      await new Promise((done) => setTimeout(done));
+      kept = await window.keep();
+      before = await window.pixels(kept);
+    };
     for (const technique of techniquesToTry) {
       const expected = await window.expect(technique);
       for (const name of calls) {
-        for (let at = 1; at <= limit; at += step) {
+        for (let at = 1; at <= 40; ++at) {
+          if (isAnew || kept === null) await renew();
           const answer = await window.play(technique, name, at, expected);
           if (!answer.hit) break;
           answers.push({ technique, name, at, ...answer });
+          others &&= (await window.pixels(kept)) === before;
         }
       }
     }
-    return { answers, others: (await window.pixels(kept)) === before };
-  }, [names, ids, stride, most]);
+    return { answers, others };
+  }, [names, ids, isFresh]);
 
   function judge(t, { answers, others }, least) {
     t.diagnostic(`${answers.length} faults, ${answers.filter(({ said }) => said).length} sentences, as '${answers.find(({ said }) => said)?.said}'`);
@@ -218,26 +229,66 @@ describe('the element where WebGL fails', { skip }, () => {
   }
 
   test('no memory, and framebuffers that are not complete', async (t) => {
-    const answer = await failEach(await open(t), ['texStorage2D', 'texStorage3D', 'framebufferTexture2D', 'framebufferTextureLayer', 'bufferData', 'drawArrays'], ['exact'], 1, 40);
+    const answer = await failEach(await open(t), ['texStorage2D', 'texStorage3D', 'framebufferTexture2D', 'framebufferTextureLayer', 'bufferData', 'drawArrays'], ['exact']);
     judge(t, answer, 5);
     assert.ok(answer.answers.some(({ said }) => /GL_OUT_OF_MEMORY/.test(said)));
     assert.ok(answer.answers.some(({ said }) => /FRAMEBUFFER/.test(said)));
+  });
+
+  test('shaders that do not compile, and programs that do not link', async (t) => {
+    const answer = await failEach(await open(t), ['compileShader', 'linkProgram'], long ? ['layered', 'wyman'] : ['wyman'], true);
+    judge(t, answer, 5);
+    for (const fits of [/does not compile: .*simulated/, /does not link/]) assert.ok(answer.answers.some(({ said }) => fits.test(said)), `${fits}`);
   });
 
   test('a context that is lost while loading, while compiling and in a frame', async (t) => {
     const opened = await open(t);
     const answers = await opened.evaluate(async () => {
       const expected = await window.expect('layered'), found = [];
-      for (let at = 1; at < 40; at += 6) { // each in a context of its own, with programs to compile
-        found.push({ at, ...(await window.play('layered', 'loss', at, expected)) });
+      const lose = async (name, at) => found.push({ at, name, ...(await window.play('layered', name, at, expected)) });
+      for (let at = 1; at < 40; at += 6) await lose('loss', at); // each in a context of its own, with programs to compile
+      for (const at of [1, 3]) {
+        await lose('loss in linkProgram', at);
+        await lose('loss in getProgramParameter', at);
       }
       return found;
     });
     t.diagnostic(`${answers.filter(({ hit }) => hit).length} losses; said: ${[...new Set(answers.map(({ said }) => said))].join(' | ')}`);
     assert.ok(answers.filter(({ hit }) => hit).length >= 5);
-    for (const { at, errors, stays } of answers) {
-      assert.ok(!stays, `call ${at}: another picture afterwards`);
-      assert.deepEqual(errors.filter((sentence) => !/context was lost/.test(sentence)), [], `call ${at}: nothing else is said`);
+    for (const { name, at, hit, errors, stays } of answers) {
+      assert.ok(hit || name === 'loss', `${name}, call ${at}: not reached`);
+      assert.ok(!stays, `${name}, call ${at}: another picture afterwards`);
+      assert.deepEqual(errors.filter((sentence) => !/context was lost/.test(sentence)), [], `${name}, call ${at}: nothing else is said`);
+    }
+  });
+
+  test('no more than WebGL 2 has at least, and no float targets', async (t) => {
+    const opened = await open(t);
+    const pictures = {
+      exact: ['exact'],
+      layered: ['layered'],
+      heightfield: ['heightfield', { src: 'ripples' }],
+      ground: ['exact', { ground: true, groundColor: '0.5,0.5,0.5' }],
+      ...(long && {
+        ...Object.fromEntries(['oliveira', 'wyman', 'single', 'kay-thickness', 'kay-nonlinear', 'kay-linear'].map((technique) => [technique, [technique]])),
+        rough: ['exact', { roughness: 0.3, dispersion: 0.5, environmentImage: 'sky' }],
+        opaque: ['exact', { objects: 'cube:opaque,at=2,0,0', background: 'blurred' }],
+      }),
+    };
+    const answer = await opened.evaluate(async (all) => {
+      const seen = {};
+      for (const [name, [technique, more]] of Object.entries(all)) {
+        window.fault.isTiny = false;
+        const usual = await window.expect(technique, more);
+        window.fault.isTiny = true;
+        seen[name] = { isSame: (await window.expect(technique, more)) === usual, colours: new Set(usual.split(',')).size };
+      }
+      return { seen, refused: window.fault.refused };
+    }, pictures);
+    assert.deepEqual(answer.refused, []);
+    for (const [name, { isSame, colours }] of Object.entries(answer.seen)) {
+      assert.ok(isSame, `${name}: another picture`);
+      assert.ok(colours > 5, `${name}: ${colours} values`);
     }
   });
 });
