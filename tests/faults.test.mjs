@@ -5,6 +5,8 @@ import { existsSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { sheet } from './bombs.mjs';
+import { ball, model, solid } from './case-models.mjs';
 import { answerWithFile, chromiumPath, launch, listen, openPage, skipWithout } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -21,6 +23,16 @@ const long = process.env.VITRINE_LONG === '1'; // nothing left out
 const page = `<!doctype html><html lang="en"><title>Test</title><link rel="icon" href="data:,">
   <style>body { margin: 0 } vitrine-viewer { width: 32px; height: 32px; display: block }</style>
   <script type="module" src="/element/vitrine-viewer.js"></script><div id="place"></div>`;
+
+const hdr = (width, height) => Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`), Buffer.alloc(4 * width * height, 128)]);
+const manyNodes = (json) => json.nodes.push(...Array.from({ length: 40000 }, (_, i) => ({ name: `node ${i}` })));
+
+/** What takes more memory than there is at first: of C, of C++, of a picture. */
+const files = {
+  '/round.glb': () => model([{ mesh: ball(1, 200), material: solid([1, 1, 1]) }]),
+  '/nodes.glb': () => sheet(30, 10, manyNodes),
+  '/sky.hdr': () => hdr(2048, 1024),
+};
 
 /** In the page, before its scripts: the n-th call of some name fails as WebGL has it; and what tests do there. */
 function simulate() {
@@ -82,6 +94,13 @@ function simulate() {
   wrap('getExtension', (call, name) => (fault.isTiny && /float|parallel/.test(name) ? null : call()));
   wrap('getSupportedExtensions', (call) => (fault.isTiny ? [] : call()));
 
+  // The memory of WebAssembly does not grow from the n-th time on.
+  const { grow } = WebAssembly.Memory.prototype;
+  WebAssembly.Memory.prototype.grow = function (pages) {
+    if (fault.name === 'grow' && ++fault.calls >= fault.at) throw new RangeError('simulated');
+    return grow.call(this, pages);
+  };
+
   // The context is lost at the n-th call of any of those, or of one, and given back after a while.
   const loses = ['texStorage2D', 'bufferData', 'shaderSource', 'linkProgram', 'drawArrays', 'fenceSync'];
   for (const name of [...loses, 'getProgramParameter', 'getSyncParameter']) {
@@ -116,6 +135,15 @@ function simulate() {
       await new Promise((done) => setTimeout(done, 5));
     }
   };
+  /** Has it that picture, or gets it? The model before may still be there. */
+  const comesTo = async (viewer, expected) => {
+    let seen = await pixels(viewer);
+    for (let i = 0; seen !== expected && i < 100; ++i) {
+      await new Promise((done) => setTimeout(done, 20));
+      seen = await pixels(viewer);
+    }
+    return seen === expected;
+  };
   window.setFault = (name, at) => Object.assign(fault, { name, at, calls: 0, error: 0 });
   /** A new element under a fault, then without: what it said, and whether its pictures are right. */
   window.play = async (technique, name, at, expected) => {
@@ -133,14 +161,10 @@ function simulate() {
     await new Promise((done) => setTimeout(done, 20));
     Object.assign(viewer, { src: 'diamond', environmentImage: 'studio' });
     await until(() => `${technique}, ${name} ${at}, again: ${says(viewer)}`, () => viewer.loaded && !says(viewer));
-    let again = await pixels(viewer);
-    for (let i = 0; again !== expected && i < 100; ++i) { // the model before may still be there
-      await new Promise((done) => setTimeout(done, 20));
-      again = await pixels(viewer);
-    }
+    const isRight = await comesTo(viewer, expected);
     viewer.remove();
     await new Promise((done) => setTimeout(done));
-    return { hit, said: said || (/GL_/.test(seen) ? seen : ''), isTold: !said || errors.length > 0, errors, wrong: seen !== expected && !/GL_/.test(seen), stays: again !== expected };
+    return { hit, said: said || (/GL_/.test(seen) ? seen : ''), isTold: !said || errors.length > 0, errors, wrong: seen !== expected && !/GL_/.test(seen), stays: !isRight };
   };
   window.expect = async (technique, more = {}) => {
     const viewer = Object.assign(make(technique), more);
@@ -150,6 +174,36 @@ function simulate() {
     viewer.remove();
     await new Promise((done) => setTimeout(done));
     return seen;
+  };
+  /** A new element whose memory does not grow from the n-th time on, then a smaller model in it: what it said, and whether the latter is right. */
+  window.outgrow = async (wish, at, expected) => {
+    const viewer = make('exact'), errors = [];
+    viewer.addEventListener('error', ({ detail }) => errors.push(detail.sourceError.message));
+    window.setFault('grow', at);
+    Object.assign(viewer, wish);
+    window.place.append(viewer);
+    await until(() => `${JSON.stringify(wish)}, growth ${at}: ${says(viewer)}`, () => viewer.loaded || says(viewer));
+    await new Promise((done) => setTimeout(done, 50)); // what comes after the first frame
+    const said = says(viewer), hit = fault.calls >= at;
+    Object.assign(viewer, { src: 'diamond', relief: null, ground: false, environmentImage: 'studio' });
+    await until(() => `${JSON.stringify(wish)}, growth ${at}, a smaller model: ${says(viewer)}`, () => viewer.loaded && !says(viewer));
+    const isRight = await comesTo(viewer, expected);
+    viewer.remove();
+    window.setFault('', 0);
+    return { hit, said, isTold: !said || errors.length > 0, isRight };
+  };
+  /** An element that has a model is asked for one that the memory is too small for. @returns {{stays: boolean, turns: boolean}} the model before does, and can be seen from elsewhere */
+  window.outgrowLater = async (src, expected) => {
+    const viewer = await window.keep();
+    window.setFault('grow', 1);
+    Object.assign(viewer, { src });
+    await until(() => src, () => says(viewer));
+    const stays = await comesTo(viewer, expected);
+    viewer.cameraOrbit = '30deg 60deg auto';
+    await new Promise((done) => setTimeout(done, 50));
+    const turns = (await pixels(viewer)) !== expected;
+    window.setFault('', 0);
+    return { stays, turns };
   };
   /** One that stays, so that the context does. */
   window.keep = async () => {
@@ -167,7 +221,8 @@ describe('the element where WebGL fails', { skip }, () => {
   before(async () => {
     server = await listen((request, response) => {
       const { pathname } = new URL(request.url, 'http://localhost');
-      if (pathname === '/') response.writeHead(200, { 'content-type': 'text/html' }).end(page);
+      if (files[pathname]) response.writeHead(200, { 'content-type': 'application/octet-stream' }).end(files[pathname]());
+      else if (pathname === '/') response.writeHead(200, { 'content-type': 'text/html' }).end(page);
       else answerWithFile(site, pathname, response);
     });
     browser = await launch();
@@ -290,5 +345,29 @@ describe('the element where WebGL fails', { skip }, () => {
       assert.ok(isSame, `${name}: another picture`);
       assert.ok(colours > 5, `${name}: ${colours} values`);
     }
+  });
+
+  test('memory of WebAssembly that does not grow', async (t) => {
+    const wishes = [{ src: 'round.glb' }, { src: 'nodes.glb' }, { environmentImage: 'sky.hdr' }, ...(long ? [{ relief: 'sky.hdr' }, { src: 'nodes.glb', ground: true }] : [])], answers = [];
+    for (const wish of wishes) {
+      for (let at = 1, hit = true; hit && (long || at === 1); ++at) {
+        const opened = await open(t); // with memory that has not grown yet
+        const answer = await opened.evaluate(async ([what, growth]) => {
+          const kept = await window.keep(), before = await window.pixels(kept), expected = await window.expect('exact');
+          return { ...(await window.outgrow(what, growth, expected)), others: (await window.pixels(kept)) === before };
+        }, [wish, at]);
+        ({ hit } = answer);
+        answers.push({ what: `${JSON.stringify(wish)}, growth ${at}`, ...answer });
+      }
+    }
+    const later = await (await open(t)).evaluate(async () => window.outgrowLater('nodes.glb', await window.expect('exact')));
+    assert.deepEqual(later, { stays: true, turns: true });
+    for (const { what, said, isTold, isRight, others } of answers) {
+      t.diagnostic(`${what}: ${said}`);
+      assert.ok(isRight, `${what}: another picture afterwards`);
+      assert.ok(others, `${what}: another element has another picture`);
+      assert.ok(isTold, `${what}: no error event`);
+    }
+    assert.ok(answers.filter(({ said }) => /memory/.test(said)).length >= wishes.length);
   });
 });

@@ -13,7 +13,7 @@ const numbers = new WeakMap(); // of a part's contents, by which the core knows 
 let lastNumber = 0;
 const loading = new Map(); // promises of the modules, by isFull
 let places = {}; // of the last loadCore
-const shaders = new Map(); // promises of where they are in a module's memory
+const shaders = new WeakMap(); // promises of where they are in a module's memory
 
 /** What the map has for that key, else what `make` promises; a promise that fails is forgotten, and made anew by the next call. */
 function remember(map, key, make) {
@@ -230,7 +230,14 @@ export class Viewer {
   attemptFile(name, source) {
     this.#context.makeCurrent();
     const more = source.spec === undefined ? [] : [source.spec, this.#numberOf(source.contents)];
-    const open = (call, ...values) => this.attempt(call, ...values, source.name, ...more);
+    const open = (call, ...values) => {
+      try {
+        return this.attempt(call, ...values, source.name, ...more);
+      } catch { // C++ found no memory, and that module does not get back what it had: who loads next has another one
+        loading.clear();
+        return null;
+      }
+    };
     return openInCore(this.#core, this.gl, name, source.contents, open) ?? `${source.name}: too large for the memory of this page`;
   }
 

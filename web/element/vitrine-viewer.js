@@ -424,6 +424,11 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     for (const cause of ['model', 'environment', 'background', 'pictures']) this.#say(cause, '');
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
     if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, this.#stage.latest))) return;
+    this.#openCore();
+  }
+
+  /** The stage has the module that there is now. */
+  async #openCore() {
     try {
       await this.#behind; // the first frame shall have it
       const loaded = await loadCore(VitrineViewer, this.#needsFull);
@@ -474,7 +479,10 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
       shown: (kind) => {
         if (kind === 'model') this.#loader.progress?.advance(0.95);
       },
-      rejected: (kind, sentence) => this.#fail('loadfailure', kind, sentence),
+      rejected: (kind, sentence) => {
+        this.#fail('loadfailure', kind, sentence);
+        this.#openCore(); // another one where memory was out
+      },
       warned: (cause, sentence) => (sentence ? this.#fail('invalid', cause, sentence) : this.#say(cause, '')),
       animated: (animations) => this.#animate(animations),
       noted: (sentences) => {
