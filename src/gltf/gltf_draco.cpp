@@ -31,6 +31,13 @@ static bool convert(const draco::PointAttribute& attribute, size_t count, int co
     return converted;
 }
 
+/// Has it numbers that glTF has, which Draco converts? A byte of its booleans may be neither true nor false.
+static bool hasNumbers(const draco::PointAttribute* attribute)
+{
+    return attribute != nullptr && attribute->data_type() != draco::DT_BOOL &&
+           draco::DataTypeLength(attribute->data_type()) <= 4;
+}
+
 /// An attribute as its accessor says that it is.
 static bool readAttribute(Loader& loader, const draco::Mesh& mesh, const std::string& name, int id,
                           int accessorIndex, Stream* stream)
@@ -43,7 +50,7 @@ static bool readAttribute(Loader& loader, const draco::Mesh& mesh, const std::st
     const int width = tinygltf::GetComponentSizeInBytes((uint32_t)accessor.componentType);
     const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId((uint32_t)id);
     const size_t count = mesh.num_points();
-    bool read = attribute != nullptr && components > 0 && components <= 4 && width > 0;
+    bool read = hasNumbers(attribute) && components > 0 && components <= 4 && width > 0;
     if (read) {
         const size_t stride = (size_t)components * (size_t)width;
         if (!loader.spend((uint64_t)count * stride, "a packed primitive")) {

@@ -3,7 +3,8 @@
 
 #include "gltf_builder.h"
 
-size_t packDraco(const float (*corners)[3], const uint8_t* triangles, uint8_t* bytes, size_t capacity);
+size_t packDraco(const float (*corners)[3], const uint8_t* triangles, bool areBooleans, uint8_t* bytes,
+                 size_t capacity);
 
 static void assertCube(const vtMesh* mesh)
 {
@@ -20,11 +21,11 @@ static const char dracoRest[] = GLASS ",\"extensionsRequired\":[\"KHR_draco_mesh
                                       "compression\":{\"bufferView\":0,\"attributes\":{\"POSITION\":0"
                                       "}}}}]}],\"nodes\":[{\"mesh\":0}]";
 
-static Builder beginDraco(size_t cut)
+static Builder beginDraco(bool areBooleans, size_t cut)
 {
     Builder b = {0};
     uint8_t packed[2000];
-    const size_t size = packDraco(cubeCorners, cubeTriangles, packed, sizeof packed);
+    const size_t size = packDraco(cubeCorners, cubeTriangles, areBooleans, packed, sizeof packed);
     assert_true(size > cut);
     addView(&b, packed, size - cut, "");
     addAccessorOf(&b, -1, glFloat, 8, "VEC3", "");
@@ -35,12 +36,14 @@ static Builder beginDraco(size_t cut)
 static void dracoLoads(void** state)
 {
     (void)state;
-    Builder b = beginDraco(0);
+    Builder b = beginDraco(false, 0);
     vtScene scene = loadBuilt(&b, dracoRest);
     assertCube(&scene.meshes[0]);
     vtDestroyScene(&scene);
-    b = beginDraco(9);
+    b = beginDraco(false, 9);
     refuseBuilt(&b, dracoRest, "a packed primitive cannot be unpacked (");
+    b = beginDraco(true, 0); // a byte of 237 as a boolean is undefined
+    refuseBuilt(&b, dracoRest, "a packed primitive has no POSITION as its accessor");
 }
 
 /// Views packed by meshoptimizer, 0 and 1, and their accessors; `cut` bytes of the first are missing.
