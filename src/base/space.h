@@ -28,10 +28,10 @@ static inline vtSpace vtSpaceOfBox(vtVec3 low, vtVec3 high)
 {
     const vtVec3 middle = vtAdd(vtScale(low, 0.5f), vtScale(high, 0.5f));
     const vtVec3 half = vtSub(high, middle);
-    const float extent = 2.0f * fmaxf(half.x, fmaxf(half.y, half.z));
-    const bool usual = !(extent > 0.0f) || !isfinite(extent) || (extent >= 0x1p-12f && extent <= 0x1p12f);
-    const int exponent = usual ? 0 : -ilogbf(extent);
-    return (vtSpace){middle, ldexpf(1.0f, exponent < 126 ? exponent : 126)};
+    const float largest = fmaxf(half.x, fmaxf(half.y, half.z)); // twice that may be no float
+    const bool usual = !(largest > 0.0f) || (largest >= 0x1p-13f && largest <= 0x1p11f);
+    const int exponent = usual ? 0 : -1 - ilogbf(largest);
+    return (vtSpace){middle, ldexpf(1.0f, exponent < -126 ? -126 : exponent > 126 ? 126 : exponent)};
 }
 
 static inline vtVec3 vtSpace_Enter(const vtSpace* space, vtVec3 p)

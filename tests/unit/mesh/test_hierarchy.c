@@ -253,6 +253,40 @@ static void records(void** state)
     }
 }
 
+/// Whatever size a mesh has that floats can have, up to where its box is wider than any float; refitted, too.
+static void sizes(void** state)
+{
+    (void)state;
+    vtMesh plain;
+    vtError error;
+    assert_ok(vtCreateShape("torus", &plain, &error), error);
+    const float reach = fmaxf(plain.boundsMax.x, fmaxf(plain.boundsMax.y, plain.boundsMax.z));
+    for (int i = 0; i < 6; ++i) {
+        vtMesh mesh;
+        vtHierarchy hierarchy;
+        const float size = (float[]){1e-37f, 1e-20f, 1.0f, 1e20f, 1.6e38f, 3.4e38f}[i] / reach;
+        const uint32_t count = 3 * plain.vertexCount;
+        float* positions = malloc(count * sizeof *positions);
+        for (uint32_t k = 0; k < count; ++k) {
+            positions[k] = plain.positions[k] * size;
+        }
+        const vtMeshDef def = {.positions = positions,
+                               .vertexCount = plain.vertexCount,
+                               .indices = plain.indices,
+                               .indexCount = plain.indexCount};
+        assert_ok(vtCreateMesh(&def, "torus", &mesh, &error), error);
+        assert_ok(vtCreateHierarchy(&mesh, &hierarchy, &error), error);
+        assert_ok(vtHierarchy_Refit(&hierarchy, &mesh, &error), error);
+        Check check = {.mesh = &mesh, .hierarchy = &hierarchy};
+        checkHierarchy(&check);
+        assert_true(hierarchy.space.unit > 0.0f && isfinite(1.0f / hierarchy.space.unit));
+        vtDestroyHierarchy(&hierarchy);
+        vtDestroyMesh(&mesh);
+        free(positions);
+    }
+    vtDestroyMesh(&plain);
+}
+
 /// Of round things most children have cones, and most leaves two triangles.
 static void quality(void** state)
 {
@@ -412,7 +446,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(records),      cmocka_unit_test(quality), cmocka_unit_test(slices),
         cmocka_unit_test(leavingEarly), cmocka_unit_test(refit),   cmocka_unit_test(wear),
-        cmocka_unit_test(fineShapes),
+        cmocka_unit_test(fineShapes),   cmocka_unit_test(sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
