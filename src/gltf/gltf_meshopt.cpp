@@ -16,12 +16,13 @@ namespace vtGltf
 static bool fits(const Compressed& view)
 {
     const size_t stride = view.byteStride;
+    const bool isPlain = view.filter.empty() || view.filter == "NONE";
     if (view.mode != "ATTRIBUTES") {
         return (view.mode == "INDICES" || (view.mode == "TRIANGLES" && view.count % 3 == 0)) &&
-               (stride == 2 || stride == 4);
+               (stride == 2 || stride == 4) && isPlain;
     }
     return stride > 0 && stride <= 256 && stride % 4 == 0 &&
-           (view.filter.empty() || view.filter == "NONE" || view.filter == "EXPONENTIAL" ||
+           (isPlain || view.filter == "EXPONENTIAL" ||
             (view.filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
             (view.filter == "QUATERNION" && stride == 8));
 }

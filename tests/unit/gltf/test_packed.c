@@ -100,6 +100,9 @@ static void meshoptLoads(void** state)
     b = beginMeshopt(false, 0);
     memcpy(strstr(b.views, "ATTRIBUTES"), "attributes", 10);
     refuseBuilt(&b, meshoptRest, "in mode 'attributes' with filter '', 8 elements of 16 bytes");
+    b = beginMeshopt(true, 0);
+    strcpy(strstr(b.views, "\"mode\":\"INDICES\""), "\"mode\":\"INDICES\",\"filter\":\"EXPONENTIAL\"}}}");
+    refuseBuilt(&b, meshoptRest, "in mode 'INDICES' with filter 'EXPONENTIAL', 36 elements of 2 bytes");
 }
 
 /// Normals by the octahedral filter, in 4 bytes each.
