@@ -24,15 +24,15 @@ mkdirSync(folder, { recursive: true });
 for (const name of ['vitrine-core.wasm', 'vitrine-full.wasm', 'vitrine-three.wasm', 'vitrine-shaders.txt']) cpSync(join(web, name), join(folder, name));
 const small = { format: 'esm', minify: true, target: 'es2022', logLevel: 'warning' };
 for (const name of ['vitrine-core.js', 'vitrine-full.js', 'vitrine-three.js']) await build({ ...small, entryPoints: [join(web, name)], outdir: folder });
-const { attributes, types, frameworkTypes, manifest } = await describeElement(join(web, 'element/attributes.js'));
+const { types, frameworkTypes, manifest } = await describeElement(join(web, 'element/attributes.js'));
 
 /** Leaves out what the attributes are, in words: only the documentation reads it. */
 const withoutDescriptions = {
   name: 'without descriptions',
   setup({ onLoad }) {
     onLoad({ filter: /element\/attributes\.js$/ }, ({ path }) => {
-      const source = readFileSync(path, 'utf8');
-      return { contents: attributes.reduce((text, { description }) => text.replace(`'${description}'`, "''"), source) };
+      const sentence = /'(?:[^'\\]|\\.)*\.'|`[^`]*\.`/; // that ends with a full stop
+      return { contents: readFileSync(path, 'utf8').replace(/^ {2}(string|boolean|oneOf|number)\(.*$/gm, (row) => row.replace(sentence, "''")) };
     });
   },
 };

@@ -1516,7 +1516,7 @@ describe('the element', { skip }, () => {
       Object.assign(a, { ior: null, cameraControls: true, maxEvents: 3 });
       return [before, a.ior, a.hasAttribute('ior'), a.getAttribute('camera-controls'), a.getAttribute('max-events'), a.constructor.observedAttributes.length];
     });
-    assert.deepEqual(seen, [[1.4, null, false, null], null, false, '', '3', 57]);
+    assert.deepEqual(seen, [[1.4, null, false, null], null, false, '', '3', 60]);
     const blob = await page.evaluate(async () => {
       const { type, size } = await a.toBlob({ mimeType: 'image/jpeg' });
       return [type, size > 1000];

@@ -5,7 +5,7 @@ import { existsSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { sheet } from './bombs.mjs';
+import { png, sheet } from './bombs.mjs';
 import { ball, model, solid } from './case-models.mjs';
 import { answerWithFile, chromiumPath, launch, listen, openPage, skipWithout } from './browser-tools.mjs';
 
@@ -27,11 +27,12 @@ const page = `<!doctype html><html lang="en"><title>Test</title><link rel="icon"
 const hdr = (width, height) => Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`), Buffer.alloc(4 * width * height, 128)]);
 const manyNodes = (json) => json.nodes.push(...Array.from({ length: 40000 }, (_, i) => ({ name: `node ${i}` })));
 
-/** What takes more memory than there is at first: of C, of C++, of a picture. */
+/** The first three take more memory than there is at first: of C, of C++, of a picture. */
 const files = {
   '/round.glb': () => model([{ mesh: ball(1, 200), material: solid([1, 1, 1]) }]),
   '/nodes.glb': () => sheet(30, 10, manyNodes),
   '/sky.hdr': () => hdr(2048, 1024),
+  '/picture.png': () => png(64, 32),
 };
 
 /** In the page, before its scripts: the n-th call of some name fails as WebGL has it; and what tests do there. */
@@ -192,18 +193,33 @@ function simulate() {
     window.setFault('', 0);
     return { hit, said, isTold: !said || errors.length > 0, isRight };
   };
-  /** An element that has a model is asked for one that the memory is too small for. @returns {{stays: boolean, turns: boolean}} the model before does, and can be seen from elsewhere */
-  window.outgrowLater = async (src, expected) => {
+  /** What a new element says, with limits and once they are gone; '': it shows all of it. */
+  window.limit = async (wish, limits) => {
+    const viewer = Object.assign(make(null), { src: 'cube', ...wish, ...limits });
+    window.place.append(viewer);
+    const answer = async () => {
+      await until(() => `${JSON.stringify({ ...wish, ...limits })}: ${says(viewer)}`, () => viewer.loaded || says(viewer));
+      if (!says(viewer)) await pixels(viewer);
+      return says(viewer);
+    };
+    const first = await answer();
+    for (const name of Object.keys(limits)) viewer[name] = null;
+    await until(() => `${JSON.stringify(wish)}, without ${JSON.stringify(limits)}: ${says(viewer)}`, () => viewer.loaded && !says(viewer));
+    viewer.remove();
+    return first;
+  };
+  /** An element that has a model is asked for one that the memory is too small for. @returns {{said: string, stays: boolean, turns: boolean}} the model before does, and can be seen from elsewhere */
+  window.outgrowLater = async (wish, expected) => {
     const viewer = await window.keep();
     window.setFault('grow', 1);
-    Object.assign(viewer, { src });
-    await until(() => src, () => says(viewer));
-    const stays = await comesTo(viewer, expected);
+    Object.assign(viewer, wish);
+    await until(() => JSON.stringify(wish), () => says(viewer));
+    const said = says(viewer), stays = await comesTo(viewer, expected);
     viewer.cameraOrbit = '30deg 60deg auto';
     await new Promise((done) => setTimeout(done, 50));
     const turns = (await pixels(viewer)) !== expected;
     window.setFault('', 0);
-    return { stays, turns };
+    return { said, stays, turns };
   };
   /** One that stays, so that the context does. */
   window.keep = async () => {
@@ -360,8 +376,8 @@ describe('the element where WebGL fails', { skip }, () => {
         answers.push({ what: `${JSON.stringify(wish)}, growth ${at}`, ...answer });
       }
     }
-    const later = await (await open(t)).evaluate(async () => window.outgrowLater('nodes.glb', await window.expect('exact')));
-    assert.deepEqual(later, { stays: true, turns: true });
+    const later = await (await open(t)).evaluate(async () => window.outgrowLater({ src: 'nodes.glb' }, await window.expect('exact')));
+    assert.deepEqual(later, { said: 'nodes.glb: too large for the memory of this page', stays: true, turns: true });
     for (const { what, said, isTold, isRight, others } of answers) {
       t.diagnostic(`${what}: ${said}`);
       assert.ok(isRight, `${what}: another picture afterwards`);
@@ -369,5 +385,33 @@ describe('the element where WebGL fails', { skip }, () => {
       assert.ok(isTold, `${what}: no error event`);
     }
     assert.ok(answers.filter(({ said }) => /memory/.test(said)).length >= wishes.length);
+  });
+
+  test('limits of what a file may ask for', async (t) => {
+    const opened = await open(t);
+    const pixels = /64 x 32 pixels, but at most 2047 are read/;
+    for (const [wish, limits, sentence] of [
+      [{ src: 'round.glb' }, { maxTriangles: 159199 }, /more than 159199 triangles/],
+      [{ src: 'round.glb' }, { maxTriangles: 159200 }, /^$/],
+      [{ src: 'round.glb' }, { maxMemory: 1e6 }, /takes \d+ bytes, but all that is read of a file may take 1000000/],
+      [{ src: 'nodes.glb' }, { maxMemory: 1e8 }, /JSON take more than 3125000 bytes/],
+      [{ environmentImage: 'sky.hdr' }, { maxPixels: 1e6 }, /2048 x 1024 pixels, but at most 1000000 are read/],
+      [{ environmentImage: 'sky.hdr' }, { maxMemory: 1e6 }, /2048 x 1024 pixels takes \d+ bytes, but a file may take 1000000/],
+      [{ environmentImage: 'picture.png' }, { maxPixels: 2047 }, pixels],
+      [{ environmentImage: 'picture.png' }, { maxPixels: 2048 }, /^$/],
+      [{ background: './picture.png' }, { maxPixels: 2047 }, pixels],
+      [{ relief: 'picture.png' }, { maxPixels: 2047 }, pixels],
+      [{ relief: 'sky.hdr' }, { maxPixels: 1e6 }, /2048 x 1024 pixels, but at most 1000000 are read/],
+      [{}, { maxPixels: 0 }, /max-pixels is '0'; it must be a whole number from 1 to/],
+    ]) {
+      assert.match(await opened.evaluate(([what, most]) => window.limit(what, most), [wish, limits]), sentence, JSON.stringify({ ...wish, ...limits }));
+    }
+    const later = await opened.evaluate(async () => { // of an element whose module has no limits
+      const expected = await window.expect('exact'), viewer = await window.keep();
+      const said = await window.outgrowLater({ src: 'round.glb', maxTriangles: 100 }, expected);
+      viewer.remove();
+      return said;
+    });
+    assert.deepEqual(later, { said: "model 'round.glb': it has more than 100 triangles; simplify it", stays: true, turns: true });
   });
 });

@@ -100,10 +100,30 @@ static vtResult decode(const vtPictureFile* file, vtRaster* raster, vtError* err
     return format->decode(file, raster, error);
 }
 
+vtResult vtCheckPictureSize(const char* name, long width, long height, size_t bytesPerPixel,
+                            const vtLimits* limits, vtError* error)
+{
+    const vtLimits most = vtResolveLimits(limits);
+    const uint64_t count = (uint64_t)width * (uint64_t)height, needed = count * bytesPerPixel;
+    if (count > most.pixels) {
+        return vtFail(error, vt_errorFormat,
+                      "picture '%.300s' is %ld x %ld pixels, but at most %llu are read; scale it "
+                      "down" VT_ALLOW("--max-pixels"),
+                      name, width, height, (unsigned long long)most.pixels);
+    }
+    if (needed > most.memory) {
+        return vtFail(
+            error, vt_errorMemory,
+            "picture '%.300s' of %ld x %ld pixels takes %llu bytes, but a file may take %llu; scale it "
+            "down" VT_ALLOW("--max-memory"),
+            name, width, height, (unsigned long long)needed, (unsigned long long)most.memory);
+    }
+    return vtSucceed(error);
+}
+
 vtResult vtCheckPicture(const void* bytes, size_t size, const char* name, const vtLimits* limits,
                         size_t bytesPerPixel, uint64_t* pixels, vtError* error)
 {
-    const vtLimits most = vtResolveLimits(limits);
     vtPictureHeader header = {0};
     const vtPictureFile file = {bytes, size, name != NULL ? name : "", false, &header};
     vtRaster raster;
@@ -112,26 +132,12 @@ vtResult vtCheckPicture(const void* bytes, size_t size, const char* name, const 
     }
     const bool isKnown = header.width > 0 && header.height > 0 && header.width <= VT_MAX_IMAGE_SIDE &&
                          header.height <= VT_MAX_IMAGE_SIDE;
-    const uint64_t count = isKnown ? (uint64_t)header.width * (uint64_t)header.height : 0;
-    const uint64_t needed = count * ((uint64_t)header.bytesPerPixel + bytesPerPixel);
+    const long width = isKnown ? header.width : 0, height = isKnown ? header.height : 0;
     if (pixels != NULL) {
-        *pixels = count;
+        *pixels = (uint64_t)width * (uint64_t)height;
     }
-    if (count > most.pixels) {
-        return vtFail(error, vt_errorFormat,
-                      "picture '%.300s' is %ld x %ld pixels, but at most %llu are read; scale it "
-                      "down" VT_ALLOW("--max-pixels"),
-                      file.name, header.width, header.height, (unsigned long long)most.pixels);
-    }
-    if (needed > most.memory) {
-        return vtFail(
-            error, vt_errorMemory,
-            "picture '%.300s' of %ld x %ld pixels takes %llu bytes, but a file may take %llu; scale it "
-            "down" VT_ALLOW("--max-memory"),
-            file.name, header.width, header.height, (unsigned long long)needed,
-            (unsigned long long)most.memory);
-    }
-    return vtSucceed(error);
+    return vtCheckPictureSize(file.name, width, height, (size_t)header.bytesPerPixel + bytesPerPixel, limits,
+                              error);
 }
 
 // ------------------------------------------------------------------------------------------------- light

@@ -53,6 +53,10 @@ vtResult vtEncodeHdr(const float* rgb, int width, int height, const char* commen
 vtResult vtCheckPicture(const void* bytes, size_t size, const char* name, const vtLimits* limits,
                         size_t bytesPerPixel, uint64_t* pixels, vtError* error);
 
+/// The same of a picture of that size, all of whose bytes are told.
+vtResult vtCheckPictureSize(const char* name, long width, long height, size_t bytesPerPixel,
+                            const vtLimits* limits, vtError* error);
+
 /// Whether this begins as a file of these formats does.
 bool vtIsPicture(const void* bytes, size_t size);
 

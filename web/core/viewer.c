@@ -77,7 +77,8 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenEnvironment(vtViewer* viewer, uint
                                                           const char* name)
 {
     vtEnvironment environment;
-    vtResult result = vtLoadEnvironment(bytes, size, name, &environment, &viewer->error);
+    vtResult result =
+        vtLoadEnvironmentWithin(bytes, size, name, vtViewer_Limits(viewer), &environment, &viewer->error);
     free(bytes);
     return sentence(viewer, result == vt_ok ? showEnvironment(viewer, &environment) : result);
 }
@@ -87,7 +88,10 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenPicture(vtViewer* viewer, uint8_t*
                                                       int height, const char* name)
 {
     vtEnvironment environment;
-    vtResult result = vtCreateImageEnvironment(pixels, width, height, name, &environment, &viewer->error);
+    vtResult result = vtViewer_CheckPicture(viewer, name, width, height);
+    if (result == vt_ok) {
+        result = vtCreateImageEnvironment(pixels, width, height, name, &environment, &viewer->error);
+    }
     free(pixels);
     return sentence(viewer, result == vt_ok ? showEnvironment(viewer, &environment) : result);
 }
@@ -96,9 +100,11 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_OpenPicture(vtViewer* viewer, uint8_t*
 EMSCRIPTEN_KEEPALIVE const char* vtViewer_BackgroundPicture(vtViewer* viewer, uint8_t* pixels, int width,
                                                             int height, const char* name)
 {
-    (void)name;
     const vtImage picture = {.pixels = pixels, .width = width, .height = height};
-    const vtResult result = vtRenderer_SetBackground(viewer->renderer, &picture, &viewer->error);
+    vtResult result = vtViewer_CheckPicture(viewer, name, width, height);
+    if (result == vt_ok) {
+        result = vtRenderer_SetBackground(viewer->renderer, &picture, &viewer->error);
+    }
     free(pixels);
     viewer->changed |= result == vt_ok;
     return sentence(viewer, result);

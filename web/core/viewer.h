@@ -33,6 +33,7 @@ typedef struct vtViewer {
     vtPreparation* preparation; ///< of `next`; NULL: not begun
     vtTracer* tracer;           ///< of `scene`, with which it goes; NULL: no path was asked for
     vtKeptRelief kept;
+    vtLimits limits;   ///< of files; 0: the defaults, as always without VT_IS_FULL
     vtWalls walls;     ///< of files that are added
     char variant[256]; ///< of their materials; empty: as they are
     vtFrame frame;     ///< of the canvas; each tick draws one of its samples
@@ -73,6 +74,15 @@ vtSceneFacts vtViewer_SceneFacts(const vtViewer* viewer);
 
 /// An object's line of text about something of that kind; empty: as it is.
 vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec);
+
+/// What is to be read of a file; NULL: the defaults.
+static inline const vtLimits* vtViewer_Limits(const vtViewer* viewer)
+{
+    return VT_IS_FULL ? &viewer->limits : NULL;
+}
+
+/// May a picture of that size that the browser has decoded be used?
+vtResult vtViewer_CheckPicture(vtViewer* viewer, const char* name, int width, int height);
 
 void vtMotion_Clear(vtMotion* motion);
 /// Takes a model over, whose scene is in the scene that was begun.

@@ -1,4 +1,5 @@
-// Objects of the scene that was begun, and what of it moves.
+// Objects of the scene that was begun, what of it moves, and what files may ask for.
+#include <emscripten.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,6 +7,7 @@
 
 #include "base/error.h"
 #include "core/viewer.h"
+#include "image/image.h"
 #include "scene/objects.h"
 
 vtResult vtViewer_ReadSpec(vtViewer* viewer, const char* text, vtObjectKind kind, vtObjectSpec* spec)
@@ -42,6 +44,25 @@ vtResult vtViewer_AddMesh(vtViewer* viewer, vtMesh* mesh, const char* name, cons
         result = vtViewer_Add(viewer, &made, spec);
     }
     return result;
+}
+
+// ------------------------------------------------------------------------------------- limits
+
+#if VT_IS_FULL
+/// What the files opened from here on may ask for, 0: the defaults.
+EMSCRIPTEN_KEEPALIVE void vtViewer_Limit(vtViewer* viewer, uint32_t memory, uint32_t triangles,
+                                         uint32_t pixels)
+{
+    viewer->limits = (vtLimits){memory, triangles, pixels};
+}
+#endif
+
+vtResult vtViewer_CheckPicture(vtViewer* viewer, const char* name, int width, int height)
+{
+    const size_t bytesPerPixel = 4 + 3 * sizeof(float); // as it came, and of light
+    return VT_IS_FULL
+               ? vtCheckPictureSize(name, width, height, bytesPerPixel, &viewer->limits, &viewer->error)
+               : vt_ok;
 }
 
 // ------------------------------------------------------------------------------------- what moves

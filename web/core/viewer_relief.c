@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/viewer.h"
+#include "image/image.h"
 #include "relief/relief.h"
 
 static vtReliefDef makeReliefDef(const vtObjectSpec* spec, int pattern)
@@ -84,9 +85,14 @@ static const char* addHeights(vtViewer* viewer, uint8_t* bytes, size_t size, int
         def = makeReliefDef(&spec, -1);
         if (!keeps(viewer, source, &def)) {
             const vtReliefDef unit = withDepthOne(&def);
-            result = width == 0
-                         ? vtLoadRelief(bytes, size, name, &unit, &mesh, &viewer->error)
-                         : vtCreateReliefOfPixels(bytes, width, height, name, &unit, &mesh, &viewer->error);
+            result = VT_IS_FULL && width == 0 ? vtCheckPicture(bytes, size, name, &viewer->limits,
+                                                               sizeof(float), NULL, &viewer->error)
+                                              : vtViewer_CheckPicture(viewer, name, width, height);
+            if (result == vt_ok) {
+                result = width == 0 ? vtLoadRelief(bytes, size, name, &unit, &mesh, &viewer->error)
+                                    : vtCreateReliefOfPixels(bytes, width, height, name, &unit, &mesh,
+                                                             &viewer->error);
+            }
             if (result == vt_ok) {
                 keep(viewer, &mesh, source, &def);
             }

@@ -66,7 +66,11 @@ EMSCRIPTEN_KEEPALIVE const char* vtViewer_AddModel(vtViewer* viewer, uint8_t* by
     vtScene made;
     vtModel* model = NULL;
     vtObjectSpec spec;
-    const vtModelDef def = {.bytes = bytes, .size = size, .name = name, .variant = viewer->variant};
+    const vtModelDef def = {.bytes = bytes,
+                            .size = size,
+                            .name = name,
+                            .variant = viewer->variant,
+                            .limits = VT_IS_FULL ? viewer->limits : (vtLimits){0}};
     vtResult result = vtViewer_ReadSpec(viewer, text, vt_kindMesh, &spec);
     if (result == vt_ok) {
         result = VT_IS_FULL ? vtOpenModel(&def, &model, &made, &viewer->error)

@@ -90,6 +90,9 @@ export const attributes = [
   oneOf('output', ['picture', 'analysis', 'layer-depth', 'layer-normal'], 'picture; analysis: paths by colour (red two refractions, blue more, green total reflection, grey lost); or depth or normals of one layer.'),
   number('layer', 0, 15, 0, 'Which layer is shown, 0 the nearest.', { integer: true }),
   number('samples', 1, 4096, 64, 'Samples a pixel, for smooth edges: added one a frame once the view rests. 1: a single one, and nothing is added.', { integer: true }),
+  number('max-memory', 1, 2e9, null, 'Bytes that one file may take, read, unpacked and decoded.', { integer: true, defaultText: '2 GiB' }),
+  number('max-triangles', 1, 1e9, null, 'Triangles of one file.', { integer: true, defaultText: '50,000,000' }),
+  number('max-pixels', 1, 1e9, null, 'Pixels of an environment, a background or a relief; those of materials are scaled down to 2048 a side.', { integer: true, defaultText: '8192 × 8192' }),
   oneOf('quality', ['auto', 'high', 'medium', 'low'], 'auto: holds the frame time while moving and draws one full frame at rest; high, medium and low: always 1, 3/4 and 1/2 of the resolution.'),
 ].map((row) => ({ ...row, property: row.attribute.replace(/-(.)/g, (_, letter) => letter.toUpperCase()) }));
 

@@ -41,6 +41,8 @@ export class Stage {
   glass = {};
   /** Of the file, to look through; null: all of the scene is in view. */
   cameraIndex = null;
+  /** What files may ask for: bytes, triangles, pixels; null: as usual. */
+  limits = [];
   /** @type {{model: import('./loading.js').Scene|null, environment: import('./loading.js').Source|null, background: import('./loading.js').Source|null}} */
   scene = { model: null, environment: builtIn('environment', 'studio'), background: null };
 
@@ -95,7 +97,11 @@ export class Stage {
 
   /** Does that need the larger core? */
   get needsFull() {
-    return needsFull(this.latest.model);
+    return this.#needsFull(this.latest.model);
+  }
+
+  #needsFull(source) {
+    return this.limits.some(Boolean) || needsFull(source);
   }
 
   get isVisible() {
@@ -135,7 +141,7 @@ export class Stage {
   show(kind, source) {
     if (kind === 'model') this.#coming = null;
     delete this.#pending[kind];
-    if (this.#viewer === null || this.#viewer.isLost || this.#unfilled.includes(kind) || (needsFull(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
+    if (this.#viewer === null || this.#viewer.isLost || this.#unfilled.includes(kind) || (this.#needsFull(source) && !this.#viewer.isFull)) this.#pending[kind] = source;
     else this.#upload(kind, source);
   }
 
@@ -310,19 +316,21 @@ export class Stage {
 
   #upload(kind, source, isNew = true) {
     const viewer = this.#viewer;
+    if (viewer.isFull) viewer.call('Limit', ...this.limits);
+    let problem;
     if (kind === 'environment') {
-      this.#shown(kind, source, isNew, source.contents === null ? viewer.attempt('SetEnvironment', source.name) : viewer.attemptFile('OpenEnvironment', source));
-      return;
+      problem = source.contents === null ? viewer.attempt('SetEnvironment', source.name) : viewer.attemptFile('OpenEnvironment', source);
+    } else if (kind === 'background') {
+      problem = source.contents instanceof ImageBitmap ? viewer.attemptFile('BackgroundOpen', source) : `${source.name}: no picture that this browser can decode; save it as PNG, JPEG or WebP`;
+    } else {
+      problem = viewer.begin(source.parts, source);
+      if (!problem) {
+        if (source.pictures === undefined && viewer.images.length > 0) this.#decode(source, viewer.images);
+        else this.#build(source, isNew);
+        return;
+      }
     }
-    if (kind === 'background') {
-      const problem = source.contents instanceof ImageBitmap ? viewer.attemptFile('BackgroundOpen', source) : `${source.name}: no picture that this browser can decode; save it as PNG, JPEG or WebP`;
-      this.#shown(kind, source, isNew, problem);
-      return;
-    }
-    const problem = viewer.begin(source.parts, source);
-    if (problem) this.#shown(kind, source, isNew, problem);
-    else if (source.pictures === undefined && viewer.images.length > 0) this.#decode(source, viewer.images);
-    else this.#build(source, isNew);
+    this.#shown(kind, source, isNew, problem);
   }
 
   /** Shows the scene that was begun once it is built, in slices of time; unless another one has come, or the viewer has gone. */

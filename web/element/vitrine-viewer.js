@@ -334,6 +334,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const stage = this.#stage;
     const behind = readBackground(this.#background);
     const { technique, ior, roughness, dispersion, fresnel, preset, layers, steps, maxEvents, output, layer, exposure, toneMapping, samples } = values;
+    stage.limits = [values.maxMemory, values.maxTriangles, values.maxPixels];
     stage.cameraIndex = values.cameraIndex;
     stage.decay = this.#reduced.matches ? 0 : values.interpolationDecay;
     attempt(problems, () => (values.placement = parsePlacement(values.orientation, values.scale)));
@@ -362,7 +363,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     const isBehind = changed.has('backdrop');
     if (this.#behind !== null && (isBehind || changed.has('backdrop-distance'))) this.#behind = this.#showBackdrop();
     stage.invalidate();
-    if ((isBehind && !this.#isFull) || ['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'ground', 'shadow-intensity', 'autoplay', 'animation-name', 'orientation', 'scale', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
+    if ((isBehind && !this.#isFull) || ['src', 'relief', 'relief-depth', 'relief-slab', 'relief-smooth', 'objects', 'walls', 'variant-name', 'ground', 'shadow-intensity', 'autoplay', 'animation-name', 'orientation', 'scale', 'max-memory', 'max-triangles', 'max-pixels', 'loading', 'environment-image', 'skybox-image', 'background'].some((name) => changed.has(name))) this.#load();
   }
 
   /** The camera as the attributes have it; returns sentences about those that cannot stand. */
