@@ -171,18 +171,18 @@ export function manyPictures(pictures) {
 /** A Radiance HDR that has nothing but its header. */
 export const hdr = (width, height) => Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`);
 
-/** An OpenEXR file of tiles of one size, that ends with its header. */
-export function exr(width, height, tile) {
+/** An OpenEXR file of tiles of one size, or of lines (0), of 16 bits (1) or floats (2), that ends with its header, or with `body`. */
+export function exr(width, height, tile, kind = 1, body = Buffer.alloc(64)) {
   const number = (...values) => Buffer.from(new Int32Array(values).buffer);
   const attribute = (name, type, value) => Buffer.concat([Buffer.from(`${name}\0${type}\0`), number(value.length), value]);
-  const channel = (name) => Buffer.concat([Buffer.from(`${name}\0`), number(1, 0, 1, 1)]);
+  const channel = (name) => Buffer.concat([Buffer.from(`${name}\0`), number(kind, 0, 1, 1)]);
   return Buffer.concat([number(20000630, 2 | (tile > 0 ? 0x200 : 0)),
     attribute('channels', 'chlist', Buffer.concat([channel('B'), channel('G'), channel('R'), Buffer.from([0])])),
     attribute('compression', 'compression', Buffer.from([0])),
     attribute('dataWindow', 'box2i', number(0, 0, width - 1, height - 1)), attribute('displayWindow', 'box2i', number(0, 0, width - 1, height - 1)),
     attribute('lineOrder', 'lineOrder', Buffer.from([0])), attribute('pixelAspectRatio', 'float', Buffer.from(new Float32Array([1]).buffer)),
     attribute('screenWindowCenter', 'v2f', number(0, 0)), attribute('screenWindowWidth', 'float', Buffer.from(new Float32Array([1]).buffer)),
-    ...(tile > 0 ? [attribute('tiles', 'tiledesc', Buffer.concat([number(tile, tile), Buffer.from([0])]))] : []), Buffer.from([0]), Buffer.alloc(64)]);
+    ...(tile > 0 ? [attribute('tiles', 'tiledesc', Buffer.concat([number(tile, tile), Buffer.from([0])]))] : []), Buffer.from([0]), body]);
 }
 
 /** A buffer view that meshoptimizer packs, of so many elements of 4 bytes. */

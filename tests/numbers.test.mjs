@@ -10,13 +10,15 @@ import { after, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { inflateSync } from 'node:zlib';
 import { cube, glb, gltf } from '../scripts/glb.mjs';
-import { ball, model, solid, thin } from './case-models.mjs';
+import { exr } from './bombs.mjs';
+import { ball, edited, model, solid, thin } from './case-models.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
 const skip = existsSync(binary) ? false : `no ${binary}`;
 const embree = !skip && !/without Embree/.test(spawnSync(binary, ['rays', 'ripples', '--relief-size', '4', '--rounds', '1']).stderr.toString());
 const long = process.env.VITRINE_LONG === '1';
+const more = long ? test : () => {}; // of the same
 const folder = mkdtempSync(join(tmpdir(), 'vitrine-numbers-'));
 after(() => rmSync(folder, { recursive: true, force: true }));
 
@@ -103,6 +105,17 @@ function refuses(args, ...parts) {
     assert.match(last, /^vitrine: /);
     for (const part of parts) assert.ok(last.includes(part), `'${part}' is not in: ${last}`);
   }
+}
+
+/** OpenEXR of floats, a line a chunk, not packed; three numbers a pixel. */
+function exrOf(width, height, numbers) {
+  const channels = [2, 1, 0], lines = Array.from({ length: height }, (_, y) => { // B, G, R
+    const line = new Float32Array(3 * width).map((_number, i) => numbers[3 * (y * width + (i % width)) + channels[Math.floor(i / width)]]);
+    return Buffer.concat([Buffer.from(new Int32Array([y, line.byteLength]).buffer), Buffer.from(line.buffer)]);
+  });
+  const head = exr(width, height, 0, 2, Buffer.alloc(0)).length, [{ length }] = lines;
+  const places = new BigInt64Array(height).map((_, y) => BigInt(head + 8 * height + y * length));
+  return exr(width, height, 0, 2, Buffer.concat([Buffer.from(places.buffer), ...lines]));
 }
 
 // ------------------------------------------------------------------------------------------------------- models
@@ -212,6 +225,52 @@ describe('triangles', { skip }, () => {
   test('none', () => refuses([bare([0, 0, 0, 1, 0, 0, 0, 1, 0], [])], 'no triangles'));
 });
 
+describe('keys of animations', { skip }, () => {
+  const moves = { translation: [[0, 0, 0], [0.4, 0, 0]], rotation: [[0, 0, 0, 1], [0, 1, 0, 0]], scale: [[1, 1, 1], [1, 2, 1]], weights: [[0], [1]] };
+  /** A ball that moves so; its keys as they come. `count`: of keys, without bytes for them. */
+  const keyed = (path, { times = [0, 1], values = moves[path], way = 'LINEAR', count } = {}) => write('keyed.glb', edited(model([{ mesh: round, material: solid([1, 1, 1]) }]), (json) => {
+    const numbers = new Float32Array([...times, ...values.flat()]), buffer = json.buffers.length;
+    const add = (byteOffset, one, size) => json.accessors.push(count ? { componentType: 5126, count, type: one } : { bufferView: json.bufferViews.push({ buffer, byteOffset, byteLength: 4 * size }) - 1, componentType: 5126, count: size / { SCALAR: 1, VEC3: 3, VEC4: 4 }[one], type: one }) - 1;
+    json.buffers.push({ byteLength: numbers.byteLength, uri: `data:application/octet-stream;base64,${Buffer.from(numbers.buffer).toString('base64')}` });
+    const kind = { rotation: 'VEC4', weights: 'SCALAR' }[path] ?? 'VEC3';
+    const sampler = { input: add(0, 'SCALAR', times.length), output: add(4 * times.length, kind, values.flat().length), interpolation: way };
+    if (path === 'weights') json.meshes[0].primitives[0].targets = [{ POSITION: json.meshes[0].primitives[0].attributes.POSITION }];
+    json.animations = [{ samplers: [sampler], channels: [{ sampler: 0, target: { node: 0, path } }] }];
+  }));
+  const at = (seconds, path, keys, ...expected) => agrees([keyed(path, keys), '--time', String(seconds)], ...expected);
+  for (const path of Object.keys(moves)) more(`of ${path}`, () => at(0.5, path));
+  more('times below 0', () => at(0, 'translation', { times: [-2, -1] }));
+  more('times that are all one', () => at(0, 'translation', { times: [1, 1] }));
+  more('times 1e-45 apart', () => at(1e-45, 'translation', { times: [0, 1e-45] }));
+  test('times 6e38 apart', () => at(1, 'translation', { times: [-3e38, 3e38] }));
+  more('a time far behind the last', () => at(1e6, 'rotation'));
+  test('tangents of 1e38 over 1e30 seconds', () => refuses([keyed('translation', { times: [0, 1e30], values: [[0, 0, 0], [0, 0, 0], [1e38, 0, 0], [1e38, 0, 0], [0, 0, 0], [0, 0, 0]], way: 'CUBICSPLINE' }), '--time', '1e6'], 'moved so far that 32-bit numbers do not hold it'));
+  more('rotations of 1e-20 and 1e30', () => at(0.5, 'rotation', { values: [[0, 0, 0, 1e-20], [0, 1e30, 0, 0]] }));
+  test('rotations that meet at 0', () => at(0.5, 'rotation', { values: [[0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, -1], [0, 0, 0, 0]], way: 'CUBICSPLINE' }));
+  more('a scale of 1e9', () => at(1, 'scale', { values: [[1, 1, 1], [1e9, 1e9, 1e9]] }));
+  more('a scale of 1e-9, out of sight', () => at(1, 'scale', { values: [[1, 1, 1], [1e-9, 1e-9, 1e-9]] }, { least: 0, most: 0 }));
+  test('a scale of 0', () => at(1, 'scale', { values: [[1, 1, 1], [0, 0, 0]] }, { least: 0, most: 0 }));
+  more('a scale turned inside out', () => at(1, 'scale', { values: [[1, 1, 1], [-1, 1, 1]] }));
+  more('a place of 1e17, out of sight', () => at(1, 'translation', { values: [[0, 0, 0], [1e17, 0, 0]] }, { least: 0, most: 0 }));
+  test('a weight of 1e9', () => at(1, 'weights', { values: [[0], [1e9]] }));
+  for (const [what, path, keys, ...parts] of [
+    ['a scale of 1e38', 'scale', { values: [[1, 1, 1], [1e38, 1e38, 1e38]] }, 'is scaled by 1e+38, 1e+38, 1e+38 or moved so far that'],
+    ['a place of 3e38', 'translation', { values: [[0, 0, 0], [3e38, 0, 0]] }, '3e+38'],
+    ['a weight of 3e38', 'weights', { values: [[0], [3e38]] }, 'reaches 3e+38 from the origin'],
+    ['a time of NaN', 'translation', { times: [0, NaN] }, 'has the time nan after 0'],
+    ['a time of Infinity', 'translation', { times: [0, Infinity] }, 'has the time inf after 0'],
+    ['times that fall', 'translation', { times: [1, 0] }, 'has the time 0 after 1'],
+    ['a value of NaN', 'translation', { values: [[0, 0, 0], [NaN, 0, 0]] }, 'has a value that is not finite'],
+    ['a weight of Infinity', 'weights', { values: [[0], [Infinity]] }, 'has a value that is not finite'],
+    ['a rotation of no length', 'rotation', { values: [[0, 0, 0, 1], [0, 0, 0, 0]] }, 'has a rotation of zero length'],
+    ['fewer values than keys', 'translation', { values: [[0, 0, 0]] }, 'has 1 values of 3 numbers for 2 keys'],
+    ['4e9 keys of no bytes', 'scale', { count: 4e9 }, "a 'count' that is not a whole number from 0 to 2147483647"],
+    ['1e8 keys of no bytes', 'rotation', { count: 1e8 }, '100000000 elements without data, more than the 16777216'],
+  ]) {
+    test(what, () => refuses([keyed(path, keys), '--time', '1'], ...parts));
+  }
+});
+
 describe('light', { skip }, () => {
   const pfm = (value) => {
     const numbers = new Float32Array(8 * 4 * 3).fill(0.5);
@@ -219,6 +278,31 @@ describe('light', { skip }, () => {
     return write('light.pfm', Buffer.concat([Buffer.from('PF\n8 4\n-1.0\n'), Buffer.from(numbers.buffer)]));
   };
   for (const value of [1e30, 3e38, 1e-45, NaN, Infinity, -1]) test(`a pixel of ${value}`, () => agrees([glass(round), '-e', pfm(value)]));
+  const withPixel = (value) => write('light.exr', exrOf(8, 4, new Float32Array(96).fill(0.5).fill(value, 33, 34)));
+  for (const value of long ? [3e38, -3e38, NaN, Infinity, -Infinity] : [3e38, NaN]) test(`a pixel of ${value}, OpenEXR`, () => agrees([glass(round), '-e', withPixel(value)]));
+  /** The exponent of one pixel; what else the header says. */
+  const hdr = (exponent, header = '') => {
+    const bytes = Buffer.alloc(4 * 32, 128);
+    bytes[7] = exponent;
+    return write('light.hdr', Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n${header}\n-Y 4 +X 8\n`), bytes]));
+  };
+  for (const exponent of long ? [0, 1, 255] : [255]) test(`a pixel of exponent ${exponent}, Radiance HDR`, () => agrees([glass(round), '-e', hdr(exponent)]));
+  for (const header of ['EXPOSURE=1e-30\nEXPOSURE=1e-30', ...(long ? ['EXPOSURE=1e30\nEXPOSURE=1e30', 'GAMMA=nan', 'PIXASPECT=0'] : [])]) {
+    test(`a header of ${header}, Radiance HDR`, () => agrees([glass(round), '-e', hdr(128, `${header}\n`)]));
+  }
+  for (const number of long ? ['nan', 'inf', '0', '-1', '1e-45', '1e38', '1e308', ''] : ['nan', '1e38']) {
+    test(`an EXPOSURE of '${number}'`, () => refuses([glass(round), '-e', hdr(128, `EXPOSURE=${number}\n`)], 'its EXPOSURE is not a number from 1e-30 to 1e30'));
+  }
+  more('a COLORCORR of NaN', () => refuses([glass(round), '-e', hdr(128, 'COLORCORR=1 nan 1\n')], 'its COLORCORR is not three numbers from 1e-30 to 1e30'));
+  more('all pixels of 3e38', () => agrees([glass(round), '-e', write('light.exr', exrOf(8, 4, new Float32Array(96).fill(3e38)))]));
+  more('all pixels of 0', () => agrees([glass(round), '-e', write('light.exr', exrOf(8, 4, new Float32Array(96)))]));
+  test('a ground and rough glass under a sun of 3e38', () => {
+    for (const words of [['--ground'], ['--roughness', '0.3'], ['--dispersion', '0.5', '--samples', '4']]) draw([glass(round), '-e', withPixel(3e38), ...words], 'exact');
+  });
+  for (const value of long ? [3e38, NaN, -Infinity] : [NaN]) test(`a height of ${value}`, () => {
+    const { code, error } = draw([withPixel(value)], 'heightfield');
+    assert.ok(code === 0 || /light\.exr/.test(error), error);
+  });
   for (const [option, value] of [['--exposure', '1e9'], ['--sun', '0,0,0'], ['--sun', '0,1,0,0.5,1e39,1,1'], ['--ground', 'nan'], ['--roughness', '1e30'], ['--dispersion', '-1']]) {
     test(`${option} ${value}`, () => refuses([glass(round), option === '--ground' ? `${option}=${value}` : option, ...(option === '--ground' ? [] : [value])], option));
   }

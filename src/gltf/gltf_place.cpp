@@ -66,14 +66,14 @@ bool toTransform(Report& report, const std::string& label, const Matrix& toWorld
             transform->rows[i][k] = (float)m[4 * k + i];
         }
     }
-    if (!isFinite(toWorld) || !fits(*transform, mesh)) {
+    const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
+                               m[8] * (m[1] * m[6] - m[2] * m[5]);
+    if (!isFinite(toWorld) || !fits(*transform, mesh) || std::isinf((float)determinant)) {
         return report.fail(vt_errorGeometry,
                            "node %s is scaled by %g, %g, %g or moved so far that 32-bit numbers do not hold "
                            "it; scale the scene down",
                            label.c_str(), columns[0], columns[1], columns[2]);
     }
-    const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
-                               m[8] * (m[1] * m[6] - m[2] * m[5]);
     if (!(std::fabs(determinant) > 1e-6 * rows[0] * rows[1] * rows[2]) ||
         !std::isnormal((float)determinant)) {
         return report.fail(vt_errorGeometry,

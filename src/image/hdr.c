@@ -58,8 +58,8 @@ static bool readScale(Reader* reader, const char* text, int count)
         char* end = NULL;
         const double number = strtod(text, &end);
         if (end == text || !(number >= 1e-30 && number <= 1e30)) {
-            return fault(reader, count == 1 ? "its EXPOSURE is not a number above 0"
-                                            : "its COLORCORR is not three numbers above 0");
+            return fault(reader, count == 1 ? "its EXPOSURE is not a number from 1e-30 to 1e30"
+                                            : "its COLORCORR is not three numbers from 1e-30 to 1e30");
         }
         for (int k = 0; k < 3; ++k) {
             reader->scale[k] /= count == 1 || k == i ? (float)number : 1.0f;

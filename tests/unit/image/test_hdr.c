@@ -112,8 +112,8 @@ static void headersCount(void** state)
     const struct {
         const char *header, *words;
     } bad[] = {
-        {"#?RADIANCE\nEXPOSURE=0\n\n-Y 1 +X 1\nabcd", "EXPOSURE is not a number above 0"},
-        {"#?RADIANCE\nEXPOSURE=nan\n\n-Y 1 +X 1\nabcd", "EXPOSURE is not a number above 0"},
+        {"#?RADIANCE\nEXPOSURE=0\n\n-Y 1 +X 1\nabcd", "EXPOSURE is not a number from 1e-30 to 1e30"},
+        {"#?RADIANCE\nEXPOSURE=nan\n\n-Y 1 +X 1\nabcd", "EXPOSURE is not a number from 1e-30 to 1e30"},
         {"#?RADIANCE\nCOLORCORR=1 2\n\n-Y 1 +X 1\nabcd", "COLORCORR is not three numbers"},
         {"#?RADIANCE\nFORMAT=32-bit_spectral\n\n-Y 1 +X 1\nabcd", "FORMAT is neither"},
         {"#?RADIANCE\n\n-Y 1 -Y 1\nabcd", "the same axis twice"},
