@@ -11,10 +11,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 needed=(build-essential cmake ninja-build pkg-config libgles-dev libegl-dev libgl1-mesa-dri libtinygltf-dev
   nlohmann-json3-dev libpng-dev libjpeg-dev libwebp-dev libopenexr-dev libcmocka-dev)
 # Without one of these a part is left out: its name, and what it is for.
-optional=(libosmesa6-dev libglfw3-dev libembree-dev emscripten python3 xvfb xauth chromium clang-format)
+optional=(libosmesa6-dev libglfw3-dev libembree-dev emscripten python3 xvfb xauth chromium clang clang-format libclang-rt-dev)
 optional+=(libdraco-dev libmeshoptimizer-dev) # packed geometry in glTF files
 
-if [ "${1:-}" = --all ]; then optional+=(ffmpeg parallel slurm-wlm firefox-esr clang libclang-rt-dev clang-tidy cppcheck gcovr); fi
+if [ "${1:-}" = --all ]; then optional+=(ffmpeg parallel slurm-wlm firefox-esr clang-tidy cppcheck gcovr); fi
 
 installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q '^install ok installed$'; }
 
