@@ -19,7 +19,8 @@ const readPng = (bytes) => createRequire(join(root, 'tests/package.json'))('pngj
 
 /**
  * What a picture may differ by: a channel's mean, of 255, and the share of pixels with a channel off by more than 8.
- * SwiftShader draws edges of surfaces, and of layers, on a few other pixels; rays that are traced do not tell.
+ * SwiftShader, which snaps vertices to sixteenths of a pixel, draws edges of surfaces, and of layers, on a few other
+ * pixels; rays that are traced do not tell.
  */
 export function boundOf(technique, name) {
   const isTraced = technique === 'exact' || technique === 'heightfield';
