@@ -16,7 +16,8 @@ ctest --test-dir build/coverage -j 2 -L unit
 for suite in cli cases series; do # they run the program of VITRINE_BINARY
   VITRINE_BINARY="$PWD/build/coverage/vitrine" node --test "tests/$suite.test.mjs" >/dev/null || echo "coverage: $suite failed"
 done
-gcovr --root . --filter src/ build/coverage --csv build/coverage/lines.csv >/dev/null
+# Threads that count at once leave some branches fewer than 0 runs, which gcovr would end at; lines are not concerned.
+gcovr --gcov-ignore-parse-errors --root . --filter src/ build/coverage --csv build/coverage/lines.csv >/dev/null
 awk -F, 'NR > 1 { split($1, path, "/"); all[path[2]] += $2; run[path[2]] += $3; sum += $2; done += $3 }
   END {
     print "| folder | lines | run |\n|---|---|---|"
