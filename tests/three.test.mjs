@@ -260,26 +260,33 @@ describe('glass in three.js', { skip }, () => {
   test('bones, morph targets, instances and groups are where three.js draws them', async () => {
     const shares = await inPage(async () => {
       const renderer = makeRenderer({ side: 96 }), camera = makeCamera(), glass = await createGlass(renderer);
-      const answer = {};
+      const answer = {}, { now } = performance;
+      let time = 0;
+      performance.now = () => (time += 5); // a piece of geometry is built in each frame
       for (const [name, make] of Object.entries(movingMeshes)) {
         const scene = new THREE.Scene();
         scene.background = new THREE.Color(0x000000);
         const mesh = make(glassMaterial({ emissive: 0xffffff, thickness: 1 }));
         scene.add(mesh);
+        glass.render(scene, camera);
+        const early = pixelsOf(renderer);
         await glass.compileAsync(scene, camera);
         const ours = pixelsOf(renderer);
         const flat = new THREE.MeshBasicMaterial();
         mesh.material = Array.isArray(mesh.material) ? mesh.material.map(() => flat) : flat;
         renderer.render(scene, camera);
         const own = pixelsOf(renderer);
-        let both = 0, either = 0;
-        for (let i = 0; i < ours.length; i += 4) {
-          const [a, b] = [ours[i] > 60, own[i] > 60];
-          both += a && b;
-          either += a || b;
+        for (const [when, seen] of [['', ours], [' at once', early]]) {
+          let both = 0, either = 0;
+          for (let i = 0; i < seen.length; i += 4) {
+            const [a, b] = [seen[i] > 60, own[i] > 60];
+            both += a && b;
+            either += a || b;
+          }
+          answer[name + when] = either > 300 ? both / either : 0;
         }
-        answer[name] = either > 300 ? both / either : 0;
       }
+      Object.assign(performance, { now });
       answer.error = renderer.getContext().getError();
       glass.dispose();
       return answer;

@@ -26,7 +26,7 @@ export interface Glass {
   render(scene: Scene, camera: Camera): boolean;
   /** Draws until nothing is still to come. */
   compileAsync(scene: Scene, camera: Camera): Promise<void>;
-  /** The last frame was three.js's as something is still to come: draw again. */
+  /** The last frame, or a part of its glass, was three.js's as something is still to come: draw again. */
   readonly isWaiting: boolean;
   /** Reads the surroundings anew with the next frame: a render target's texture does not tell that it was drawn. */
   updateEnvironment(): void;

@@ -128,10 +128,10 @@ class Glass {
 
   /** Draws until nothing is still to come. */
   async compileAsync(scene, camera) {
-    while (!this.#isDisposed && !this.render(scene, camera) && this.#isWaiting) await new Promise((done) => requestAnimationFrame(done));
+    while (!this.#isDisposed && (this.render(scene, camera), this.#isWaiting)) await new Promise(requestAnimationFrame);
   }
 
-  /** The last frame was three.js's as something is still to come: draw again. */
+  /** The last frame, or a part of its glass, was three.js's as something is still to come: draw again. */
   get isWaiting() {
     return this.#isWaiting;
   }
@@ -146,7 +146,7 @@ class Glass {
     this.#geometries.sweep();
     this.#isWaiting = objects.isWaiting;
     if (!objects.hasGlass) return false;
-    if (scene.fog) note('glass itself is drawn without fog; what is seen through it has it');
+    if (scene.fog) note('glass has no fog; what is seen through it has');
     this.#environment.update(renderer, scene, core, note);
     const count = objects.write(core, this.#environment.rotation, { intensity: this.#environment.intensity, pictures: this.#pictures, note });
     this.#pictures.update(renderer, core);

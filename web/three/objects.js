@@ -46,8 +46,8 @@ export class Objects {
     this.isWaiting = false;
     scene.traverseVisible((mesh) => {
       if (!mesh.isMesh || mesh.userData.glass === false || !mesh.layers.test(camera.layers)) return;
-      const isArray = Array.isArray(mesh.material);
-      const groups = isArray ? mesh.geometry.groups : [null];
+      const isArray = Array.isArray(mesh.material), groups = isArray ? mesh.geometry.groups : [null];
+      let parts = []; // of the mesh: all of them or none, as they may share a material
       for (const group of groups) {
         const material = isArray ? mesh.material[group.materialIndex] : mesh.material;
         const isOpaque = !isGlass(material);
@@ -58,9 +58,11 @@ export class Objects {
         }
         const entry = geometries.use(mesh, rangeOf(mesh.geometry, group), material.flatShading === true, until);
         if (entry.problem) note(`${entry.problem}; three.js draws it`);
-        else if (entry.isReady) this.#parts.push({ mesh, material, isOpaque, entry });
-        else this.isWaiting = true;
+        else if (entry.isReady) parts?.push({ mesh, material, isOpaque, entry });
+        else parts = null;
       }
+      if (parts) this.#parts.push(...parts);
+      else this.isWaiting = true;
     });
   }
 
