@@ -26,6 +26,18 @@ const head = '<!doctype html><html lang="en"><title>Test</title><link rel="icon"
 const body = `<vitrine-viewer id="a" src="knot" environment-image="sky" samples="4" interpolation-decay="0"></vitrine-viewer>${
   '<vitrine-viewer class="more" src="sphere" samples="1" style="width: 40px; height: 40px"></vitrine-viewer>'.repeat(19)}`;
 
+/** A panel of glass over a canvas of tiles, which it may also have as a file. */
+const over = `<style>canvas { position: absolute; width: 300px; height: 200px; object-fit: cover } #a { position: absolute; left: 100px; top: 40px }</style>
+  <canvas id="under" width="300" height="300"></canvas>
+  <vitrine-viewer id="a" objects="panel:width=1.6,height=1.2,radius=0.3,bevel=0.2,thickness=0.4,rotate=20,10,0" samples="1" interpolation-decay="0" backdrop="#under"></vitrine-viewer>
+  <script>{
+    const pen = under.getContext('2d');
+    for (let i = 0; i < 900; ++i) {
+      pen.fillStyle = 'rgb(' + [8 * (i % 30), 8 * Math.floor(i / 30), (i + Math.floor(i / 30)) % 2 ? 220 : 40] + ')';
+      pen.fillRect(10 * (i % 30), 10 * Math.floor(i / 30), 10, 10);
+    }
+  }</script>`;
+
 describe('the element in Firefox', { skip }, () => {
   let server, screen, firefox, chromium;
 
@@ -33,7 +45,8 @@ describe('the element in Firefox', { skip }, () => {
     mkdirSync(screenshots, { recursive: true });
     server = await listen((request, response) => {
       const { pathname } = new URL(request.url, 'http://localhost');
-      if (pathname === '/') response.writeHead(200, { 'content-type': 'text/html' }).end(head + body);
+      const page = { '/': head + body, '/over.html': head + over }[pathname];
+      if (page) response.writeHead(200, { 'content-type': 'text/html' }).end(page);
       else answerWithFile(site, pathname, response);
     });
     screen = await startDisplay();
@@ -95,5 +108,59 @@ describe('the element in Firefox', { skip }, () => {
     await page.waitForFunction(() => document.getElementById('a').shadowRoot.querySelector('[part=message]').hidden, { timeout: patience });
     await page.evaluate(settled);
     assert.ok(difference(before, PNG.sync.read(Buffer.from(await page.screenshot()))) < 0.01);
+  });
+
+  test('a backdrop: what lies under the element, wherever it moves, and a picture, as Chromium shows them; a video goes on', async (t) => {
+    const expected = await openPage(chromium, { viewport: { width: 400, height: 300 } }), page = await firefox.newPage();
+    t.after(() => expected.context().close());
+    await page.setViewport({ width: 400, height: 300 });
+    const complaints = [];
+    page.on('pageerror', (error) => complaints.push(String(error)));
+    const both = [expected, page];
+    for (const one of both) await one.goto(`${server.address}/over.html`);
+    await expected.waitForFunction(allLoaded);
+    await page.waitForFunction(allLoaded, { timeout: patience });
+    const seen = new Set();
+    const changes = {
+      'as it stands': () => {},
+      'moved by a style': () => (a.style.left = '130px'),
+      'by a transform': () => (a.style.transform = 'translate(-90px, 30px)'),
+      'a picture': () => (a.backdrop = under.toDataURL()),
+      'another canvas, further behind': () => Object.assign(a, { backdropDistance: 2, backdrop: Object.assign(document.createElement('canvas'), { width: 20, height: 20 }) }),
+      'the one under it again': () => (a.backdrop = '#under'),
+    };
+    for (const [name, change] of Object.entries(changes)) {
+      const pictures = [];
+      for (const one of both) {
+        await one.evaluate(change);
+        await one.evaluate(settled);
+        pictures.push([read(await whole(one)), PNG.sync.read(Buffer.from(await one.screenshot()))]);
+      }
+      const [file, shown] = [0, 1].map((i) => difference(pictures[0][i], pictures[1][i]));
+      t.diagnostic(`${name}: file: ${file.toFixed(4)} % differ, screen: ${shown.toFixed(4)} %`);
+      assert.ok(file < 0.5 && shown < 0.5, `${name}: ${file} % of the file and ${shown} % of the screen differ`);
+      seen.add(pictures[1][1].data.toString('base64'));
+    }
+    assert.equal(seen.size, Object.keys(changes).length, 'each change is seen');
+
+    await page.evaluate(() => {
+      const canvas = Object.assign(document.createElement('canvas'), { width: 64, height: 64 }), pen = canvas.getContext('2d');
+      window.fill = (color) => {
+        pen.fillStyle = `rgb(${color})`;
+        pen.fillRect(0, 0, 64, 64);
+      };
+      a.backdrop = Object.assign(document.createElement('video'), { muted: true, srcObject: canvas.captureStream() });
+      a.backdrop.play();
+    });
+    for (const color of [[200, 30, 60], [20, 160, 220]]) {
+      await page.waitForFunction((wanted) => {
+        window.fill(wanted);
+        const canvas = a.shadowRoot.querySelector('canvas'), copy = new OffscreenCanvas(1, 1).getContext('2d');
+        copy.drawImage(canvas, -2, -2);
+        const [...there] = copy.getImageData(0, 0, 1, 1).data; // beside the glass
+        return wanted.every((value, i) => Math.abs(value - there[i]) < 9);
+      }, { timeout: patience, polling: 50 }, color);
+    }
+    assert.deepEqual(complaints, []);
   });
 });

@@ -93,11 +93,11 @@ static const char* errorName(GLenum code)
 vtResult vtCheckGL(const vtGL* gl, const char* doing, vtError* error)
 {
     GLenum first = gl->GetError();
+    if (first == GL_NO_ERROR) { // each question waits for the GPU
+        return vtSucceed(error);
+    }
     // A lost context may answer with errors for ever: ask a few times only.
     for (int i = 0; i < 8 && gl->GetError() != GL_NO_ERROR; ++i) {
-    }
-    if (first == GL_NO_ERROR) {
-        return vtSucceed(error);
     }
     if (first == 0x0507 || first == 0x9242) { // GL_CONTEXT_LOST, CONTEXT_LOST_WEBGL
         return vtFail(error, vt_errorContext,

@@ -51,7 +51,8 @@ void vtRenderer_DrawSamples(vtRenderer* renderer, const vtFrame* frame, int samp
     gl->BindVertexArray(renderer->emptyVertexArray);
     if (sampleEnd == 0) {
         accumulate->count = 0;
-    } else if (accumulate->count == 0) { // sample 0 was drawn straight, and its light is still there
+    } else if (accumulate->count == 0) {         // sample 0 was drawn straight, and its light is still there
+        vtRenderer_UploadSample(renderer, 0, 1); // another renderer may have drawn in the meantime
         addSample(renderer, 0);
     }
     bool layersToo = sampleEnd == 0 || frame->moving;

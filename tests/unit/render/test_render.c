@@ -450,6 +450,34 @@ static void samplesAddUpOverCalls(void** state)
     free(wanted);
 }
 
+// Two renderers draw a sample each in turns: each picture as alone.
+static void samplesOfTwoRenderersAddUpInTurns(void** state)
+{
+    Fixture* fixture = *state;
+    vtError error;
+    vtRenderer* second;
+    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress}, &second,
+                               &error),
+              error);
+    setShape(fixture->renderer, "goblet");
+    setShape(second, "torus");
+    uint8_t *wanted = malloc(pixelBytes), *other = malloc(4 * 40 * 40);
+    vtFrame frame = smallFrame(vt_techniqueExact), otherFrame = smallFrame(vt_techniqueExact);
+    otherFrame.width = otherFrame.height = 40;
+    frame.samples = sampleCount;
+    draw(fixture, &frame);
+    memcpy(wanted, fixture->pixels, pixelBytes);
+    frame.samples = 1;
+    for (frame.firstSample = 0; frame.firstSample < sampleCount; ++frame.firstSample) {
+        draw(fixture, &frame);
+        assert_ok(vtRenderer_DrawImage(second, &otherFrame, other, &error), error);
+    }
+    assert_memory_equal(fixture->pixels, wanted, pixelBytes);
+    vtDestroyRenderer(second);
+    free(wanted);
+    free(other);
+}
+
 static void whateverChangesStartsAnew(void** state)
 {
     Fixture* fixture = *state;
@@ -583,6 +611,7 @@ int main(void)
         cmocka_unit_test(exposureMultipliesLinearLight),
         cmocka_unit_test(severalSamplesAreTheMeanOfEach),
         cmocka_unit_test(samplesAddUpOverCalls),
+        cmocka_unit_test(samplesOfTwoRenderersAddUpInTurns),
         cmocka_unit_test(whateverChangesStartsAnew),
         cmocka_unit_test(otherOutputsTakeOneSample),
         cmocka_unit_test(badFramesDrawNothing),
