@@ -390,6 +390,17 @@ describe('files in the element', { skip }, () => {
       a.play();
     });
     await isPast(0.3);
+    assert.equal(await page.evaluate(async () => {
+      const { getError } = WebGL2RenderingContext.prototype;
+      let waits = 0;
+      WebGL2RenderingContext.prototype.getError = function () {
+        ++waits;
+        return getError.call(this);
+      };
+      for (let i = 0; i < 10; ++i) await new Promise((done) => a.addEventListener('frame', done, { once: true }));
+      Object.assign(WebGL2RenderingContext.prototype, { getError });
+      return waits;
+    }), 0, 'a page that waits for the GPU in each frame');
     await page.waitForFunction(() => window.told.includes('loop'), null, { timeout: 60000 });
     const [paused, told] = await page.evaluate(() => [a.paused, (a.pause(), window.told)]);
     assert.deepEqual([paused, told[0], told.at(-1)], [false, 'play', 'pause']);

@@ -75,7 +75,7 @@ export class Stage {
   #refused = null; // the technique that the scene is too large for
   #refusal = ''; // what is wrong with the last frame, a sentence
   #drawn = {}; // detail of the last render-scale
-  #isUnchecked = false; // the GPU has not been asked whether it has drawn such a frame
+  #unchecked = 0; // the GPU has not been asked whether it has drawn such a frame: 1 its first sample, 2 a later one, which has targets of its own
 
   /** @param {HTMLElement} host holds a canvas @param {Told} told */
   constructor(host, told) {
@@ -362,7 +362,7 @@ export class Stage {
   }
 
   #shown(kind, source, isNew, problem) {
-    this.#isUnchecked = true;
+    this.#unchecked = 3;
     if (problem && this.#viewer.gl.isContextLost()) { // which is about to be told: it waits for the next one
       if (isNew) this.#pending[kind] = source;
       return;
@@ -500,7 +500,7 @@ export class Stage {
     if (isNew || problem) this.#tellRefusal(problem);
     if (isNew) this.#tellScale(width, height);
     if (drawn === 1) {
-      this.#awaitFrame(start, quality.moving);
+      this.#awaitFrame(start, quality.moving, isNew ? 1 : 2);
     } else {
       this.#viewer.leave();
       this.#schedule(); // what moves may stand for a frame
@@ -541,7 +541,7 @@ export class Stage {
     const size = { pixelWidth, pixelHeight, preset, layers, steps, maxEvents, branches, wavelengths };
     if (Object.keys(size).every((key) => this.#drawn[key] === size[key])) return;
     this.#drawn = size;
-    this.#isUnchecked = true;
+    this.#unchecked = 3;
     const { reason, scale } = this.quality;
     const dpr = dprOf(this.#host), minimumDpr = dpr * levels.at(-1).scale;
     const detail = { reportedDpr: window.devicePixelRatio, renderedDpr: dpr * scale, minimumDpr, ...size, reason };
@@ -562,8 +562,8 @@ export class Stage {
     loading.then(end, end);
   }
 
-  /** Waits for the GPU without holding the page up; the next frame starts after it. */
-  #awaitFrame(start, moving) {
+  /** Waits for the GPU without holding the page up; the next frame starts after it. @param {number} kind as of #unchecked */
+  #awaitFrame(start, moving, kind) {
     const { gl } = this.#viewer;
     const fence = (this.#busy = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0));
     if (fence === null) return; // lost
@@ -576,14 +576,14 @@ export class Stage {
       }
       gl.deleteSync(fence);
       this.#busy = null;
-      const problem = this.#isUnchecked ? this.#viewer.attempt('Check') : '';
+      const problem = this.#unchecked & kind ? this.#viewer.attempt('Check') : ''; // which waits, so once
       if (problem) {
         this.#isRefining = false;
         this.#viewer.leave();
         if (!gl.isContextLost()) this.#tellRefusal(problem);
         return;
       }
-      this.#isUnchecked &&= this.#isRefining; // its later samples have targets of their own
+      this.#unchecked &= ~kind;
       this.#viewer.showOn(this.#host.querySelector('canvas'));
       this.#viewer.leave();
       const milliseconds = performance.now() - start;
