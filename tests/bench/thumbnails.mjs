@@ -1,6 +1,6 @@
 // Thumbnails of many models, 256 x 256: by one process of vitrine, by a process each, and by <model-viewer> in one headless
 // Chromium, which is what people use today. Time and memory; read the ratios.
-//   node tests/bench/thumbnails.mjs [COUNT]     COUNT: 1000
+//   node tests/bench/thumbnails.mjs [COUNT [IN_BROWSER]]     COUNT: 1000; of which the browser draws the first IN_BROWSER (all)
 // Needs build/release and the packages of tests/; those of tests/bench/ are installed on first use.
 import { execFileSync, spawn } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
@@ -13,9 +13,9 @@ import { memoryOf } from '../memory.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../../build/release/vitrine'));
-const count = Number(process.argv[2] ?? 1000), side = 256;
-if (!Number.isInteger(count) || count < 1) {
-  console.error(`thumbnails: '${process.argv[2]}' is no number of thumbnails; give one from 1`);
+const count = Number(process.argv[2] ?? 1000), inBrowser = Number(process.argv[3] ?? count), side = 256;
+if (![count, inBrowser].every((one) => Number.isInteger(one) && one >= 1) || inBrowser > count) {
+  console.error(`thumbnails: '${process.argv.slice(2).join(' ')}' are no numbers of thumbnails; give one from 1, and a second up to it`);
   process.exit(1);
 }
 
@@ -66,7 +66,7 @@ async function byModelViewer(puppeteer, models, out, running) {
     await tab.setViewport({ width: side, height: side });
     await tab.goto(server.address);
     await tab.waitForFunction(() => customElements.get('model-viewer') !== undefined);
-    for (const name of readdirSync(models)) {
+    for (const name of readdirSync(models).slice(0, inBrowser)) {
       const picture = await tab.evaluate(async (src) => {
         await new Promise((done, fail) => {
           a.addEventListener('load', done, { once: true });
@@ -92,20 +92,20 @@ try {
   for (let i = 0; i < count; ++i) writeFileSync(join(models, `${String(i).padStart(4, '0')}.glb`), files[i % 20]);
   writeFileSync(join(folder, 'list.txt'), readdirSync(models).map((name) => `${join(models, name)}\n`).join(''));
   const running = { pid: null }, rows = [];
-  const add = async (what, name, act) => {
+  const add = async (what, name, wanted, act) => {
     running.pid = null;
     const { seconds, megabytes } = await measure(act, () => running.pid);
     const made = readdirSync(join(folder, name)).length;
-    if (made !== count) throw new Error(`${what}: ${made} of ${count} pictures`);
-    rows.push(`| ${what} | ${seconds.toFixed(1)} s | ${((1000 * seconds) / count).toFixed(0)} ms | ${megabytes.toFixed(0)} MB |`);
+    if (made !== wanted) throw new Error(`${what}: ${made} of ${wanted} pictures`);
+    rows.push(`| ${what} | ${wanted} | ${seconds.toFixed(1)} s | ${((1000 * seconds) / wanted).toFixed(0)} ms | ${megabytes.toFixed(0)} MB |`);
     console.error(rows.at(-1));
   };
-  await add('`vitrine render --list`, one process', 'one', () => byVitrine(['--list', join(folder, 'list.txt'), '-o', join(folder, 'one/{name}.png')], running));
-  await add('`vitrine render`, a process each', 'each', async () => {
+  await add('`vitrine render --list`, one process', 'one', count, () => byVitrine(['--list', join(folder, 'list.txt'), '-o', join(folder, 'one/{name}.png')], running));
+  await add('`vitrine render`, a process each', 'each', count, async () => {
     for (const name of readdirSync(models)) await byVitrine([join(models, name), '-o', join(folder, 'each', name.replace('.glb', '.png'))], running);
   });
-  await add('`<model-viewer>` in headless Chromium, one page', 'browser', () => byModelViewer(puppeteer, models, join(folder, 'browser'), running));
-  console.log(`${count} thumbnails of 20 models, ${side} x ${side}\n\n| by | time | each | memory at most |\n|---|---|---|---|\n${rows.join('\n')}`);
+  await add('`<model-viewer>` in headless Chromium, one page', 'browser', inBrowser, () => byModelViewer(puppeteer, models, join(folder, 'browser'), running));
+  console.log(`Thumbnails of 20 models, ${side} x ${side}\n\n| by | thumbnails | time | each | memory at most |\n|---|---|---|---|---|\n${rows.join('\n')}`);
 } finally {
   rmSync(folder, { recursive: true, force: true });
 }
