@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Feeds hostile input to each reader, under address and undefined-behaviour sanitizers: scripts/fuzz.sh SECONDS [TARGET...],
 # all targets unless some are named, SECONDS shared by them. What has been found stays in build/fuzz/corpus, and each run
-# goes on from there. Exit code 1: an input did harm; it is named.
+# goes on from there. Exit code 1: an input did harm; it is named. VITRINE_FUZZ_SEED: a number by which inputs follow one
+# another in the same way each time.
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 case ${1:-} in
-  --help | -h) sed -n '2,4s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  --help | -h) sed -n '2,5s/^# \{0,1\}//p' "$0"; exit 0 ;;
   '' | *[!0-9]* | 0) echo "fuzz.sh: SECONDS is '${1:-}'; it must be a whole number above 0" >&2; exit 1 ;;
 esac
 seconds=$1
@@ -38,7 +39,7 @@ mkdir -p build/fuzz/crashes
 for target in "${targets[@]}"; do
   corpus=build/fuzz/corpus/$target dictionary=build/fuzz/seeds/$target.dict log=build/fuzz/$target.log
   mkdir -p "$corpus"
-  options=(-max_total_time="$each" -max_len=16384 -timeout=20 -rss_limit_mb=2048 -close_fd_mask=3 -print_final_stats=1
+  options=(-max_total_time="$each" -max_len=16384 -timeout=20 -rss_limit_mb=2048 -close_fd_mask=3 -print_final_stats=1 -seed="${VITRINE_FUZZ_SEED:-0}"
     -artifact_prefix="build/fuzz/crashes/$target-")
   if [ -f "$dictionary" ]; then options+=(-dict="$dictionary"); fi
   if "build/fuzz/tests/fuzz_$target" "${options[@]}" "$corpus" "build/fuzz/seeds/$target" >"$log" 2>&1; then
