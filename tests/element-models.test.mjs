@@ -276,6 +276,10 @@ describe('files in the element', { skip }, () => {
     const how = (change) => edited(meshopt, ({ bufferViews }) => change(bufferViews[0].extensions.EXT_meshopt_compression));
     assert.match(await refusal('mode.glb', how((one) => (one.mode = 'WORDS'))), /^model 'mode\.glb': buffer view 0 cannot be unpacked \(mode WORDS, filter NONE, \d+ elements of 12 bytes\); the file is damaged/);
     assert.match(await refusal('stride.glb', how((one) => (one.byteStride = 260))), /elements of 260 bytes/);
+    const ofIndices = edited(meshopt, ({ bufferViews }) => {
+      for (const { extensions } of bufferViews) if (extensions?.EXT_meshopt_compression.mode === 'TRIANGLES') extensions.EXT_meshopt_compression.filter = 'EXPONENTIAL';
+    });
+    assert.match(await refusal('filter.glb', ofIndices), /\(mode TRIANGLES, filter EXPONENTIAL, \d+ elements of \d bytes\)/);
     assert.match(await refusal('count.glb', how((one) => (one.count = 1e9))), /its data take more than 2147483648 bytes; simplify it/);
     assert.match(await refusal('short.glb', how((one) => (one.byteLength = 20))), /buffer view 0 cannot be unpacked/);
     assert.match(await refusal('beyond.glb', how((one) => (one.byteOffset = 1e6))), /reads beyond the end of buffer 0/);

@@ -524,7 +524,7 @@ describe('the element', { skip }, () => {
         await new Promise(requestAnimationFrame);
       }
     });
-    assert.ok(difference(await shown(page, { roughness: null }), lit) < 0.01, 'at rest all of them');
+    assert.ok(meanError(await shown(page, { roughness: null }), lit) < 0.001, 'at rest all of them');
     await page.evaluate(() => a.removeAttribute('skybox-image'));
     await quiet(page);
     const shadowed = await shot(page);

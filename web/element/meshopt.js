@@ -14,7 +14,7 @@ export async function load() {
 /** Do mode and filter go with stride and count? The decoder does not look. */
 function fits({ count, byteStride, mode, filter = 'NONE' }) {
   if (!(Number.isInteger(count) && count >= 0 && Number.isInteger(byteStride))) return false;
-  if (mode !== 'ATTRIBUTES') return (mode === 'INDICES' || (mode === 'TRIANGLES' && count % 3 === 0)) && (byteStride === 2 || byteStride === 4);
+  if (mode !== 'ATTRIBUTES') return filter === 'NONE' && (mode === 'INDICES' || (mode === 'TRIANGLES' && count % 3 === 0)) && (byteStride === 2 || byteStride === 4);
   return byteStride > 0 && byteStride <= 256 && byteStride % 4 === 0 && Object.hasOwn(stridesOf, filter) && (stridesOf[filter] ?? [byteStride]).includes(byteStride);
 }
 
