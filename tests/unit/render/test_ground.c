@@ -224,6 +224,36 @@ static void aSunIsFound(void** state)
     assert_true(sun.irradiance.x == 0.0f);
 }
 
+/// Where no ray meets anything every texel has all the light, whatever directions fell to it.
+static void freeGroundHasAllItsLight(void** state)
+{
+    (void)state;
+    enum { across = 256 };
+    const vtGround ground = vtDefaultGround();
+    const vtVec3 low = {-1.0f, 0.0f, -1.0f}, high = {1.0f, 1.0f, 1.0f};
+    const vtGroundScene scene = {
+        .space = vtSpaceOfBox(low, high), .low = low, .high = high, .glassLow = high, .glassHigh = low};
+    vtEnvironment sky;
+    vtGroundPlan plan;
+    vtError error;
+    assert_ok(vtCreateEnvironment("sky", &sky, &error), error);
+    assert_ok(vtPlanGround(&ground, &sky, &scene, &plan, &error), error);
+    for (int source = 0; source < 2; ++source) {
+        const int count = vtGroundPlan_Across(&plan, source, vt_groundShade, across);
+        for (int i = 0; i < count * count; ++i) {
+            const int x = i % count, y = i / count;
+            const vtGroundRay ray = vtGroundPlan_Ray(&plan, source, vt_groundShade, x, y, count, 0);
+            vtGroundPlan_AddShade(&plan, source, &ray, x, y, count, true);
+        }
+        vtGroundPlan_EndShade(&plan, source);
+        const int texels = vtGroundSide(vtGroundLightOf(source));
+        for (int i = 0; i < texels * texels; ++i) {
+            assert_true(fabsf(plan.sums[source][3 * i] / plan.irradiance[source].x - 1.0f) < 1e-4f);
+        }
+    }
+    vtDestroyGroundPlan(&plan);
+}
+
 /// Nothing of what the scene does: the picture is that without a ground.
 static void withoutIntensityNothingIsSeen(void** state)
 {
@@ -282,6 +312,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(aBoxOfGlassIsMetFromBelow, setUp, tearDown),
         cmocka_unit_test_setup_teardown(aLampLightsTheGround, setUp, tearDown),
         cmocka_unit_test(aSunIsFound),
+        cmocka_unit_test(freeGroundHasAllItsLight),
         cmocka_unit_test_setup_teardown(withoutIntensityNothingIsSeen, setUp, tearDown),
         cmocka_unit_test_setup_teardown(badGroundsAreRefused, setUp, tearDown),
     };
