@@ -10,9 +10,8 @@
 //  - Rays stand on a lattice, rows of a grid shifted by the golden ratio, and their directions come in a
 //    fixed order that has all parts of a light in every
 //    8 x 8 of them (Bayer 1973), so that even light comes out even.
-//  - What a texel of the map has of sky and sun is what is lit of its own rays' light, a share that is
-//  without
-//    noise where nothing is in the way (a ratio estimate: Heitz, Hill & McGuire 2018 have shadows so).
+//  - Of sky and sun a texel of the map has the lit share of its own rays' light, without noise where nothing
+//    is in the way (a ratio estimate: Heitz, Hill & McGuire 2018 have shadows so).
 //  - Glass and what is opaque cast the same shadow; all the light that glass lets through is photons'.
 #include "light/ground.h"
 
