@@ -16,14 +16,22 @@ typedef struct Fixture {
     float directions[3 * side * side];
 } Fixture;
 
+/// One in the fixture's context; to be destroyed.
+static inline vtRenderer* createRenderer(const Fixture* fixture)
+{
+    vtRenderer* renderer;
+    vtError error;
+    const vtRendererDef def = {.getProcAddress = fixture->context.getProcAddress};
+    assert_ok(vtCreateRenderer(&def, &renderer, &error), error);
+    return renderer;
+}
+
 static inline int setUp(void** state)
 {
     Fixture* fixture = calloc(1, sizeof *fixture);
     vtError error;
     assert_ok(vtCreateContext(vt_backendAuto, &fixture->context, &error), error);
-    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
-                               &fixture->renderer, &error),
-              error);
+    fixture->renderer = createRenderer(fixture);
     *state = fixture;
     return 0;
 }

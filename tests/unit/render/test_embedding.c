@@ -144,19 +144,14 @@ static void hostileStateDoesNotMatter(void** state)
     assert_ok(vtCreateEnvironment("studio", &environment, &error), error);
     for (size_t i = 0; i < sizeof techniques / sizeof techniques[0]; ++i) {
         vtFrame frame = makeFrame(techniques[i]);
-        vtRenderer* renderer;
-        assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
-                                   &renderer, &error),
-                  error);
+        vtRenderer* renderer = createRenderer(fixture);
         assert_ok(vtRenderer_SetScene(renderer, &scene, &error), error);
         assert_ok(vtRenderer_SetEnvironment(renderer, &environment, &error), error);
         assert_ok(vtRenderer_DrawImage(renderer, &frame, clean, &error), error);
         vtDestroyRenderer(renderer);
 
         makeHostile(&host);
-        assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
-                                   &renderer, &error),
-                  error);
+        renderer = createRenderer(fixture);
         makeHostile(&host);
         assert_ok(vtRenderer_SetScene(renderer, &scene, &error), error);
         makeHostile(&host);
@@ -505,9 +500,7 @@ static void aBallTurnsThePictureRound(void** state)
     vtError error;
     vtRenderer* shared =
         fixture->renderer; // this one has drawn nothing else, so its paths are of the overlay
-    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
-                               &fixture->renderer, &error),
-              error);
+    fixture->renderer = createRenderer(fixture);
     setShape(fixture->renderer, "sphere");
     for (int i = 0; i < 2; ++i) {
         Host host;

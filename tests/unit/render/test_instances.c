@@ -71,20 +71,10 @@ static void expectDrawnAs(Fixture* fixture, vtRenderer* other, vtTechnique techn
     assert_memory_equal(fixture->pixels, pixels, sizeof pixels);
 }
 
-static vtRenderer* createOther(const Fixture* fixture)
-{
-    vtRenderer* other;
-    vtError error;
-    assert_ok(
-        vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress}, &other, &error),
-        error);
-    return other;
-}
-
 static void oneByOneIsAsAtOnce(void** state)
 {
     Fixture* fixture = *state;
-    vtRenderer *renderer = fixture->renderer, *other = createOther(fixture);
+    vtRenderer *renderer = fixture->renderer, *other = createRenderer(fixture);
     vtError error;
     const vtGeometryId cube = addShape(renderer, "cube"), gone = addShape(renderer, "torus");
     const vtGeometryId ball = addShape(renderer, "sphere");
@@ -118,7 +108,7 @@ static void geometryComesAndGoes(void** state)
     const char* shapes[] = {"cube", "sphere", "torus", "knot", "diamond", "goblet"};
     vtGeometryId ids[most] = {0};
     vtInstanceId last = {0};
-    vtRenderer *renderer = fixture->renderer, *other = createOther(fixture);
+    vtRenderer *renderer = fixture->renderer, *other = createRenderer(fixture);
     vtError error;
     for (int round = 0; round < 3; ++round) {
         for (int i = 0; i < most; ++i) {

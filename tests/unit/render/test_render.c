@@ -272,10 +272,7 @@ static void twoRenderersLiveSideBySide(void** state)
 {
     Fixture* fixture = *state;
     vtError error;
-    vtRenderer* second;
-    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress}, &second,
-                               &error),
-              error);
+    vtRenderer* second = createRenderer(fixture);
     setShape(fixture->renderer, "goblet");
     setEnvironment(fixture->renderer, "sky");
     vtFrame frame = smallFrame(vt_techniqueLayered), otherFrame = smallFrame(vt_techniqueLayered);
@@ -455,10 +452,7 @@ static void samplesOfTwoRenderersAddUpInTurns(void** state)
 {
     Fixture* fixture = *state;
     vtError error;
-    vtRenderer* second;
-    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress}, &second,
-                               &error),
-              error);
+    vtRenderer* second = createRenderer(fixture);
     setShape(fixture->renderer, "goblet");
     setShape(second, "torus");
     uint8_t *wanted = malloc(pixelBytes), *other = malloc(4 * 40 * 40);

@@ -360,10 +360,7 @@ static void branchesBringThePictureNearer(void** state)
 static void drawAfresh(Fixture* fixture, const vtScene* scene, const char* environment, const vtFrame* frame)
 {
     vtRenderer* used = fixture->renderer;
-    vtError error;
-    assert_ok(vtCreateRenderer(&(vtRendererDef){.getProcAddress = fixture->context.getProcAddress},
-                               &fixture->renderer, &error),
-              error);
+    fixture->renderer = createRenderer(fixture);
     setScene(fixture->renderer, scene);
     setEnvironment(fixture->renderer, environment);
     draw(fixture, frame);
