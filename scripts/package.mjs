@@ -1,8 +1,9 @@
 // Makes the npm package from build/web: build/package (its contents) and build/vitrine-viewer-VERSION.tgz.
 //   node scripts/package.mjs            needs build/web (scripts/build-web.sh) and the packages of tests/
 import { build } from '../tests/node_modules/esbuild/lib/main.js';
+import { minify } from '../tests/node_modules/terser/main.js';
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
@@ -105,6 +106,15 @@ await build({
   loader: { '.wasm': 'binary' },
   outfile: join(folder, 'vitrine-viewer.bundle.js'),
 });
+
+// What esbuild bundled, smaller still: of vitrine-core.js a seventh, of most a fiftieth.
+for (const name of readdirSync(folder, { recursive: true }).filter((one) => one.endsWith('.js'))) {
+  const file = join(folder, name), mapFile = `${file}.map`;
+  const sourceMap = existsSync(mapFile) && { content: readFileSync(mapFile, 'utf8'), url: basename(mapFile), includeSources: true };
+  const { code, map } = await minify(readFileSync(file, 'utf8'), { module: true, ecma: 2022, compress: { passes: 3 }, sourceMap });
+  writeFileSync(file, code);
+  if (map) writeFileSync(mapFile, map);
+}
 
 writeFileSync(
   join(folder, 'package.json'),

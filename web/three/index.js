@@ -154,13 +154,34 @@ class Glass {
     return count > 0;
   }
 
-  #clear(target) {
-    const renderer = this.#renderer, alpha = renderer.getClearAlpha();
-    renderer.getClearColor(this.#clearColor);
+  /** @param {number[]} color its alpha is 0 */
+  #clear(target, color = [0, 0, 0]) {
+    const renderer = this.#renderer, gl = renderer.getContext();
     renderer.setRenderTarget(target);
-    renderer.setClearColor(0, 0);
     renderer.clear();
-    renderer.setClearColor(this.#clearColor, alpha);
+    gl.clearBufferfv(gl.COLOR, 0, [...color, 0]);
+  }
+
+  /** Draws what is not glass. Its alpha is without the background's colour, of which three.js maps no tones. */
+  #drawOpaque(scene, camera) {
+    const renderer = this.#renderer, { autoClear } = renderer, { background } = scene, { opaque, backdrop } = this.#output;
+    const alpha = renderer.getClearAlpha(), isColor = background?.isColor;
+    renderer.getClearColor(this.#clearColor);
+    const color = (isColor ? background : this.#clearColor).toArray(), share = isColor ? 1 : background || !autoClear ? 0 : alpha;
+    backdrop.set(...color, share);
+    this.#clear(opaque, color.map((value) => share * value));
+    try {
+      renderer.autoClear = false;
+      if (isColor) {
+        renderer.setClearColor(background, 1); // also for what three.js draws through glass of its own
+        scene.background = null;
+      }
+      renderer.render(scene, camera);
+    } finally {
+      renderer.autoClear = autoClear;
+      renderer.setClearColor(this.#clearColor, alpha);
+      scene.background = background;
+    }
   }
 
   /** Draws what is not glass, of so many samples a pixel, and the glass, each into a target of its own. */
@@ -173,9 +194,7 @@ class Glass {
     renderer.resetState();
     this.#objects.hide(renderer.shadowMap.enabled);
     try {
-      if (!renderer.autoClear) this.#clear(opaque);
-      renderer.setRenderTarget(opaque);
-      renderer.render(scene, camera);
+      this.#drawOpaque(scene, camera);
     } finally {
       this.#objects.show();
     }

@@ -1,21 +1,24 @@
 // Where three.js draws what is not glass, where the glass is drawn, and the drawing that puts both together: by three.js,
 // so that tones, colour space and depth are its own.
-import { CustomBlending, DepthTexture, FloatType, HalfFloatType, LinearMipmapLinearFilter, NearestFilter, NoBlending, OneFactor, OneMinusSrcAlphaFactor, WebGLRenderTarget } from 'three';
+import { CustomBlending, DepthTexture, FloatType, HalfFloatType, LinearMipmapLinearFilter, NearestFilter, NoBlending, OneFactor, OneMinusSrcAlphaFactor, Vector4, WebGLRenderTarget } from 'three';
 import { Screen } from './screen.js';
 
-// Colours have their alpha in them; tones are mapped without.
+// Colours have their alpha in them; tones are mapped without, and of the background's colour not at all.
 const fragmentShader = `
 uniform sampler2D scene, glass;
 uniform highp sampler2D sceneDepth, glassDepth;
+uniform vec4 backdrop;
 varying vec2 place;
 void main() {
   vec4 before = texture2D(glass, place);
   vec4 light = before + (1.0 - before.a) * textureLod(scene, place, 0.0);
+  float share = (1.0 - light.a) * backdrop.a;
   gl_FragDepth = min(texture2D(sceneDepth, place).r, texture2D(glassDepth, place).r);
-  gl_FragColor = vec4(light.rgb / max(light.a, 1e-6), light.a);
+  gl_FragColor = vec4(max(light.rgb - share * backdrop.rgb, 0.0) / max(light.a, 1e-6), light.a);
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
   gl_FragColor.rgb *= light.a;
+  gl_FragColor += share * linearToOutputTexel(vec4(backdrop.rgb, 1.0));
 }`;
 
 /** @param {boolean} hasLevels by which rough glass sees it */
@@ -31,12 +34,13 @@ function disposeTarget(target) {
 
 export class Output {
   hasLevels = false;
+  backdrop = new Vector4(); // the background's colour, which the scene has where its alpha is not 1
   #screen;
 
   constructor() {
     this.opaque = makeTarget(0);
     this.glass = makeTarget(0);
-    const uniforms = { scene: {}, sceneDepth: {}, glass: { value: this.glass.texture }, glassDepth: { value: this.glass.depthTexture } };
+    const uniforms = { backdrop: { value: this.backdrop }, scene: {}, sceneDepth: {}, glass: { value: this.glass.texture }, glassDepth: { value: this.glass.depthTexture } };
     this.#screen = new Screen({ uniforms, fragmentShader, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor });
   }
 
