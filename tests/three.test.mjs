@@ -199,6 +199,11 @@ describe('glass in three.js', { skip }, () => {
         return both();
       });
       const isKept = scene.background === null && renderer.getClearColor(new THREE.Color()).equals(background) && renderer.getClearAlpha() === 0.5;
+      const { length } = glass.notes;
+      scene.background = Object.assign(new THREE.DataTexture(new Uint8Array([255, 0, 0, 255]), 1, 1), { colorSpace: THREE.SRGBColorSpace, needsUpdate: true });
+      glass.render(scene, camera);
+      const told = glass.notes.slice(length);
+      scene.background = null;
       renderer.setClearColor(0x000000, 1);
       const target = new THREE.WebGLRenderTarget(64, 64, { type: THREE.HalfFloatType, samples: 4 });
       const readTarget = (draw) => {
@@ -220,11 +225,12 @@ describe('glass in three.js', { skip }, () => {
       const inside = (a, b, most) => a.reduce((count, value, i) => count + (Math.abs(value - b[i]) > most), 0) / a.length;
       return {
         canvas: inside([...ours], own, 6), composed: inside([...ours], composed, 4), target: inside(oursInTarget, ownInTarget, 0.05),
-        behind: behind.map(([one, other]) => inside([...one], other, 2)), stays: stays && isKept,
+        behind: behind.map(([one, other]) => inside([...one], other, 2)), told, stays: stays && isKept,
       };
     });
     assert.ok(off.canvas < 0.02, `${off.canvas} of the canvas`); // its edges: three.js maps tones of each sample there
     for (const share of off.behind) assert.ok(share < 0.02, `${share} of the canvas before a colour`);
+    assert.deepEqual(off.told, ['scene.background is an sRGB picture; its tones are mapped, too']);
     assert.ok(off.target < 0.02, `${off.target} of the target`);
     assert.ok(off.composed < 0.001, `${off.composed} of what EffectComposer shows`);
     assert.ok(off.stays);

@@ -1,5 +1,5 @@
 // Glass in a scene of three.js's: `glass.render(scene, camera)` in place of `renderer.render(scene, camera)`.
-import { Color, Matrix4, Vector4 } from 'three';
+import { Color, Matrix4, SRGBColorSpace, Vector4 } from 'three';
 import { Core, loadCore } from './core.js';
 import { Environment } from './environment.js';
 import { Geometries } from './geometry.js';
@@ -147,6 +147,7 @@ class Glass {
     this.#isWaiting = objects.isWaiting;
     if (!objects.hasGlass) return false;
     if (scene.fog) note('glass has no fog; what is seen through it has');
+    if (renderer.toneMapping && !renderer.getRenderTarget() && scene.background?.colorSpace === SRGBColorSpace) note('scene.background is an sRGB picture; its tones are mapped, too');
     this.#environment.update(renderer, scene, core, note);
     const count = objects.write(core, this.#environment.rotation, { intensity: this.#environment.intensity, pictures: this.#pictures, note });
     this.#pictures.update(renderer, core);
