@@ -289,6 +289,11 @@ describe('glass over a page', { skip }, () => {
     await page.evaluate(() => Object.assign(document.body.style, { height: '900px' }) && (a.style.position = 'fixed') && window.scrollTo(0, 10));
     await quiet(page);
     near(pixel(await picture(page), 60, 40), under(140, 150), 2, 'the page scrolls under it');
+    await page.waitForTimeout(1500); // no frame looks any more
+    await page.evaluate(() => a.animate([{}, { transform: 'translate(-20px, 20px)' }], { duration: 100, fill: 'forwards' }).finished);
+    await page.waitForTimeout(500);
+    await quiet(page);
+    near(pixel(PNG.sync.read(await page.screenshot()), 190, 100), under(190, 110), 2, 'an animation moved it, through the glass');
     await page.evaluate(() => window.fill(under, 'rgb(9, 90, 190)') && (a.backdrop = '#under'));
     await quiet(page);
     assert.deepEqual(pixel(await picture(page), 60, 40), [9, 90, 190, 255], 'set again');

@@ -4,6 +4,7 @@
 const isVideoName = /\.(mp4|m4v|webm|ogv|mov)([?#]|$)/i;
 const everywhere = [0, 0, 0, 0]; // of SetBackdrop: the largest part of the element's shape
 const followedFor = 60; // frames after the last sign that something moves
+const lookedAfter = 100; // milliseconds, where no sign tells of it: Element.animate() has none
 const signs = ['scroll', 'resize', 'pointermove', 'pointerdown', 'keydown', 'transitionrun', 'animationstart'];
 const tracing = [null, 'exact', 'heightfield']; // techniques that show it
 
@@ -190,20 +191,24 @@ export class Backdrop {
       this.#left = followedFor;
       if (this.#frame === 0) this.#frame = requestAnimationFrame(step);
     };
+    const look = () => {
+      if (!this.#isElsewhere()) return;
+      this.#stage.moved();
+      follow();
+    };
     const step = () => {
       this.#frame = 0;
       if (signal.aborted || --this.#left < 0) return;
-      if (this.#isElsewhere()) {
-        this.#left = followedFor;
-        this.#stage.moved();
-      }
-      this.#frame = requestAnimationFrame(step);
+      look();
+      if (this.#frame === 0) this.#frame = requestAnimationFrame(step);
     };
+    const looking = setInterval(look, lookedAfter);
     for (const type of signs) window.addEventListener(type, follow, { signal, capture: true, passive: true });
     const observers = [new ResizeObserver(follow), new MutationObserver(follow)];
     for (const element of [anchor, this.#host]) observers[0].observe(element);
     for (const root of [document, this.#host.getRootNode()]) observers[1].observe(root, { subtree: true, childList: true, attributeFilter: ['class', 'style', 'hidden'] });
     signal.addEventListener('abort', () => {
+      clearInterval(looking);
       cancelAnimationFrame(this.#frame);
       this.#frame = 0;
       for (const observer of observers) observer.disconnect();
