@@ -1,7 +1,7 @@
 // Series of pictures: frames, models, parts; stopped and gone on with. Needs VITRINE_BINARY.
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
-import { chmodSync, existsSync, lstatSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, symlinkSync, truncateSync, writeFileSync } from 'node:fs';
+import { chmodSync, copyFileSync, existsSync, lstatSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, symlinkSync, truncateSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, describe, test } from 'node:test';
@@ -275,6 +275,27 @@ describe('files', () => {
     symlinkSync('real/new.png', join(folder, 'dangling.png'));
     assert.equal(vitrine(['sphere', '-o', 'dangling.png', ...small]).code, 0);
     assert.ok(existsSync(join(folder, 'real/new.png')));
+  });
+
+  test('a name of 255 bytes; a file that may not be written; a name that ends like another kind', () => {
+    const long = `${'n'.repeat(251)}.png`;
+    assert.equal(vitrine(['sphere', '-o', long, ...small]).code, 0);
+    assert.ok(existsSync(join(folder, long)));
+    writeFileSync(join(folder, 'protected.png'), 'as it was');
+    chmodSync(join(folder, 'protected.png'), 0o444);
+    // Who is root may write everything, and others may not get at the binary where it lies.
+    const asOther = process.getuid() === 0 ? ['setpriv', '--reuid=65534', '--regid=65534', '--clear-groups'] : [];
+    copyFileSync(binary, join(folder, 'vitrine'));
+    chmodSync(folder, 0o777);
+    const [program, ...args] = [...asOther, './vitrine', 'render', 'sphere', '-o', 'protected.png', ...small];
+    const refused = spawnSync(program, args, { cwd: folder, env: { ...process.env, ASAN_OPTIONS: 'detect_leaks=0' } });
+    assert.equal(refused.status, 1);
+    assert.match(refused.stderr.toString(), /'protected\.png' cannot be written: Permission denied/);
+    assert.equal(readFileSync(join(folder, 'protected.png'), 'utf8'), 'as it was');
+    const told = vitrine(['sphere', '-o', 'a.jpg', ...small]);
+    assert.equal(told.code, 0);
+    assert.match(told.error, /^vitrine: note: 'a\.jpg' is written as PNG; \.exr and \.hdr are the other kinds$/m);
+    assert.doesNotMatch(vitrine(['sphere', '-o', 'a.PNG', ...small]).error, /note/);
   });
 
   test('a file of the size limit: a sentence, the old file stays', () => {

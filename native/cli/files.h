@@ -29,8 +29,8 @@ typedef struct vtUnfinishedFile {
     char place[4096]; ///< where it goes: links are followed
 } vtUnfinishedFile;
 
-/// Begins one for `path`, with the permissions of the file that is there, if any. `ending`: of its name
-/// meanwhile, for programs that go by it.
+/// Begins one for `path`, with the permissions of the file that is there, if any; one that may not be written
+/// stays. `ending`: of its name meanwhile, for programs that go by it.
 vtResult vtBeginFile(const char* path, const char* ending, vtUnfinishedFile* file, vtError* error);
 
 /// Makes the folders of a path that are not there. Fails with vt_errorFile and the reason.

@@ -14,7 +14,10 @@
 #include "base/error.h"
 #include "cli/files.h"
 
-enum { mostLinks = 40 }; // as Linux follows
+enum {
+    mostLinks = 40,   // as Linux follows
+    mostOfName = 200, // bytes of a name that the unfinished file has, too: names have 255 at most
+};
 
 static vtResult failWriting(const char* path, int reason, vtError* error)
 {
@@ -50,11 +53,17 @@ vtResult vtBeginFile(const char* path, const char* ending, vtUnfinishedFile* fil
     vtResult result = followLinks(path, file->place, error);
     struct stat status;
     const bool isThere = result == vt_ok && stat(file->place, &status) == 0;
+    if (isThere && access(file->place, W_OK) != 0) { // a new file in its place would go round that
+        return failWriting(path, errno, error);
+    }
+    const char* slash = strrchr(file->place, '/');
+    const int folder = slash != NULL ? (int)(slash + 1 - file->place) : 0;
     for (int tries = 0; result == vt_ok && file->descriptor < 0; ++tries) {
         uint64_t number = 0;
         const bool drawn = getrandom(&number, sizeof number, 0) == (ssize_t)sizeof number;
-        if (!drawn || snprintf(file->path, sizeof file->path, "%s.%016" PRIx64 "%s", file->place, number,
-                               ending) >= (int)sizeof file->path) {
+        if (!drawn ||
+            snprintf(file->path, sizeof file->path, "%.*s%.*s.%016" PRIx64 "%s", folder, file->place,
+                     mostOfName, file->place + folder, number, ending) >= (int)sizeof file->path) {
             return failWriting(path, drawn ? ENAMETOOLONG : errno, error);
         }
         file->descriptor = open(file->path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);

@@ -1,11 +1,13 @@
 #include "cli/picture_output.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/error.h"
 #include "base/math.h"
+#include "cli/video.h"
 #include "image/image.h"
 
 static bool endsWith(const char* text, const char* end)
@@ -31,6 +33,11 @@ vtResult vtChoosePictureFormat(const vtOptions* options, vtPictureFormat* format
     if (vtPictureFormat_IsLinear(*format) && options->analysis) {
         return vtFail(error, vt_errorArgument, "--analysis gives colours, not light; '%.200s' must be a PNG",
                       name);
+    }
+    const char* slash = strrchr(name, '/');
+    const char* dot = strrchr(slash != NULL ? slash : name, '.');
+    if (dot != NULL && !vtPictureFormat_IsLinear(*format) && !endsWith(name, ".png") && !vtIsVideo(name)) {
+        fprintf(stderr, "vitrine: note: '%s' is written as PNG; .exr and .hdr are the other kinds\n", name);
     }
     return vt_ok;
 }

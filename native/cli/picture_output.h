@@ -11,7 +11,7 @@ typedef enum vtPictureFormat {
 } vtPictureFormat;
 
 /// By the end of the file's name and --bits. Fails with vt_errorArgument where the two, or --analysis,
-/// contradict each other.
+/// contradict each other. Tells of a name that ends like another kind.
 vtResult vtChoosePictureFormat(const vtOptions* options, vtPictureFormat* format, vtError* error);
 
 /// Is linear light written, without tone mapping?

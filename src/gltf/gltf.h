@@ -180,8 +180,11 @@ struct Loader : Report {
     }
 };
 
-/// Text out of a file, fit for a sentence: one line, not long.
+/// Text out of a file, fit for a sentence: one line, not long, without what commands a terminal.
 std::string quotable(std::string text);
+
+/// A library's sentence, fit for a part of ours.
+std::string withoutStop(std::string sentence);
 
 /// "3", or "3, cup" of what has a name.
 std::string label(int index, const std::string& name);

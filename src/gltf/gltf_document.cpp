@@ -50,6 +50,7 @@ constexpr char endl[] = "\n"; // the real one is a stream's
 #undef dump
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 namespace vtGltf
@@ -83,12 +84,18 @@ static bool parseStructs(Loader& loader, Json& document)
     // tinygltf drops a broken primitive, tells so, and goes on: half a model is not what was asked for.
     if (!parsed || !message.empty()) {
         return loader.fail(vt_errorFormat, "its JSON is not glTF (%s)" GLTF_DAMAGED,
-                           message.empty() ? "unknown reason" : quotable(message).c_str());
+                           message.empty() ? "unknown reason" : withoutStop(message).c_str());
     }
     if (loader.model.asset.version.compare(0, 2, "2.") != 0) {
         return loader.fail(vt_errorFormat,
                            "it is glTF version '%s' but only 2.0 is supported; export it as glTF 2.0",
                            quotable(loader.model.asset.version).c_str());
+    }
+    const std::string& least = loader.model.asset.minVersion;
+    if (std::strtod(least.c_str(), nullptr) > 2.0) {
+        return loader.fail(vt_errorFormat,
+                           "it needs glTF %s but only 2.0 is supported; export it as glTF 2.0",
+                           quotable(least).c_str());
     }
     return true;
 }

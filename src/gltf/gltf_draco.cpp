@@ -114,7 +114,7 @@ bool decodePrimitive(Loader& loader, const tinygltf::Primitive& primitive, Strea
     draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) {
         return loader.fail(vt_errorFormat, "a packed primitive cannot be unpacked (%s)" GLTF_DAMAGED,
-                           quotable(decoded.status().error_msg_string()).c_str());
+                           withoutStop(decoded.status().error_msg_string()).c_str());
     }
     const draco::Mesh& mesh = *decoded.value();
     const tinygltf::Value& attributes = about.Get("attributes");

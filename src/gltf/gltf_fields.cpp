@@ -75,6 +75,7 @@ struct Field {
 static const Field fields[] = {
     {Kind::file, "asset", Take::object, Kind::asset},
     {Kind::asset, "version", Take::asIs, {}},
+    {Kind::asset, "minVersion", Take::asIs, {}},
     {Kind::file, "buffers", Take::list, Kind::buffer},
     {Kind::buffer, "byteLength", Take::index, {}},
     {Kind::buffer, "uri", Take::asIs, {}},

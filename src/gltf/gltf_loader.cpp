@@ -75,13 +75,24 @@ bool Loader::has(const char* what, int index, size_t count)
 
 std::string quotable(std::string text)
 {
-    for (char& c : text) {
-        c = (unsigned char)c < 32 ? ' ' : c;
+    const auto at = [&](size_t i) { return i < text.size() ? (unsigned char)text[i] : 0u; };
+    for (size_t i = 0; i < text.size(); ++i) {
+        const bool isTwo = at(i) == 0xc2 && at(i + 1) >= 0x80 && at(i + 1) < 0xa0; // U+0080 to U+009F
+        if (at(i) < 32 || at(i) == 127 || isTwo) {
+            text.replace(i, isTwo ? 2 : 1, " ");
+        }
     }
-    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) {
-        text.pop_back();
+    size_t end = text.size() > 120 ? 117 : text.size();
+    while (end > 0 && (at(end) & 0xc0) == 0x80) { // within a character
+        --end;
     }
-    return text.size() > 120 ? text.substr(0, 117) + "..." : text;
+    return end < text.size() ? text.substr(0, end) + "..." : text;
+}
+
+std::string withoutStop(std::string sentence)
+{
+    sentence.erase(sentence.find_last_not_of(" .\n") + 1);
+    return quotable(sentence);
 }
 
 std::string label(int index, const std::string& name)

@@ -31,7 +31,11 @@ static bool readExtra(Loader& loader, int index, const char* extension, const ch
     if (value == nullptr) {
         return true;
     }
-    *number = value->IsNumber() ? value->GetNumberAsDouble() : NAN;
+    if (!value->IsNumber()) {
+        return loader.fail(vt_errorFormat, "material %d has %s that is no number; correct %s", index, what,
+                           extension);
+    }
+    *number = value->GetNumberAsDouble();
     return (*number >= least && *number <= (double)FLT_MAX) ||
            loader.fail(vt_errorFormat,
                        "material %d has %s of %g, but it must be a number of %g or more; correct %s", index,

@@ -29,6 +29,13 @@ static bool readTransform(Loader& loader, size_t index)
                            "node %zu has a transform with too many or too few numbers" GLTF_DAMAGED, index);
     }
     node.hasMatrix = !given.matrix.empty();
+    const double* m = node.matrix.m;
+    if (std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1.0) > 1e-4) {
+        return loader.fail(
+            vt_errorFormat,
+            "node %zu has a matrix whose last row is %g, %g, %g, %g, but it must be 0, 0, 0, 1" GLTF_DAMAGED,
+            index, m[3], m[7], m[11], m[15]);
+    }
     const double* r = rest.r;
     if (!node.hasMatrix && !(std::fabs(r[0]) + std::fabs(r[1]) + std::fabs(r[2]) + std::fabs(r[3]) > 0.0)) {
         return loader.fail(vt_errorFormat, "node %zu has a rotation of zero length" GLTF_DAMAGED, index);

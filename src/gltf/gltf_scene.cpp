@@ -137,7 +137,8 @@ bool collectNodes(Loader& loader)
         return failObjects(loader, loader.objects.size());
     }
     return !loader.objects.empty() ||
-           loader.fail(vt_errorGeometry, "its scene has no triangles; export it with its meshes, in a scene");
+           loader.fail(vt_errorGeometry, "its scene has no triangles that are neither hidden nor scaled to "
+                                         "nothing; export it with its meshes, in a scene");
 }
 
 } // namespace vtGltf
