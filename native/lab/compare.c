@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/json.h"
+#include "cli/limit_options.h"
 #include "image/image.h"
 #include "image/pfm.h"
 #include "lab/metrics/metrics.h"
@@ -19,6 +20,7 @@ typedef struct Request {
     const char* difference;
     const char* events;
     int threshold;
+    vtLimits limits; // 0 where not given
     bool json, help;
 } Request;
 
@@ -49,6 +51,9 @@ static void printHelp(void)
         "254\n"
         "      --events FILE                    split directions by the true path's number of events: an\n"
         "                                       8-bit grey PNG of the same size, one count a pixel\n"
+        "      --max-memory SIZE                a file that asks for more than this is refused, as 512M "
+        "(4G)\n"
+        "      --max-pixels N                   a picture of more is not read (67108864, 8192 x 8192)\n"
         "  -h, --help                           this text\n");
 }
 
@@ -71,6 +76,8 @@ static vtResult readRequest(int count, char** words, Request* request, vtError* 
         {"difference", required_argument, NULL, 'd'},
         {"threshold", required_argument, NULL, 't'},
         {"events", required_argument, NULL, 'e'},
+        {"max-memory", required_argument, NULL, 'm'},
+        {"max-pixels", required_argument, NULL, 'p'},
         {"help", no_argument, NULL, 'h'},
         {NULL, 0, NULL, 0},
     };
@@ -92,6 +99,10 @@ static vtResult readRequest(int count, char** words, Request* request, vtError* 
             break;
         case 'e':
             request->events = optarg;
+            break;
+        case 'm':
+        case 'p':
+            result = vtReadLimit(code == 'm' ? "max-memory" : "max-pixels", optarg, &request->limits, error);
             break;
         case 'h':
             request->help = true;
@@ -136,15 +147,15 @@ static Content classify(const float* pixels, size_t count)
     return allZero ? contentEither : contentDirections;
 }
 
-static vtResult loadInput(const char* path, Input* input, vtError* error)
+static vtResult loadInput(const char* path, const vtLimits* limits, Input* input, vtError* error)
 {
     uint8_t* bytes;
     size_t size;
-    vtResult result = vtReadInput(path, NULL, &bytes, &size, error);
+    vtResult result = vtReadInput(path, limits, &bytes, &size, error);
     if (result != vt_ok) {
         return result;
     }
-    result = vtCheckPicture(bytes, size, path, NULL, 3 * sizeof(float), NULL, error);
+    result = vtCheckPicture(bytes, size, path, limits, 3 * sizeof(float), NULL, error);
     if (result != vt_ok) {
         vtFree(bytes);
         return result;
@@ -162,10 +173,11 @@ static vtResult loadInput(const char* path, Input* input, vtError* error)
 }
 
 /// Counts as they stand in the file: the decoder's conversion to linear is undone, exactly for 8 bits.
-static vtResult loadEvents(const char* path, const Input* truth, uint8_t** events, vtError* error)
+static vtResult loadEvents(const char* path, const vtLimits* limits, const Input* truth, uint8_t** events,
+                           vtError* error)
 {
     Input image = {0};
-    vtResult result = loadInput(path, &image, error);
+    vtResult result = loadInput(path, limits, &image, error);
     if (result != vt_ok) {
         return result;
     }
@@ -244,17 +256,18 @@ static vtResult comparePictures(const Request* request, const Input inputs[2], v
                       request->paths[0], request->paths[1]);
     }
     vtPictureError measured;
-    float* flipMap = malloc(sizeof(float) * count);
-    uint8_t* rgb = malloc(3 * count);
+    const bool isDrawn = request->difference != NULL;
+    float* flipMap = isDrawn ? malloc(sizeof(float) * count) : NULL;
+    uint8_t* rgb = isDrawn ? malloc(3 * count) : NULL;
     vtResult result = vt_ok;
-    if (flipMap == NULL || rgb == NULL) {
+    if (isDrawn && (flipMap == NULL || rgb == NULL)) {
         result = vtFail(error, vt_errorMemory, "comparison: out of memory for %zu pixels", count);
     }
     if (result == vt_ok) {
         result = vtComparePictures(inputs[0].pixels, inputs[1].pixels, inputs[0].width, inputs[0].height,
                                    &measured, flipMap, error);
     }
-    if (result == vt_ok && request->difference != NULL) {
+    if (result == vt_ok && isDrawn) {
         vtDrawFlip(flipMap, count, rgb);
         result = writeDifference(request->difference, rgb, inputs, error);
     }
@@ -354,7 +367,7 @@ static vtResult measureDirections(const Request* request, const Input inputs[2],
     uint8_t* events = NULL;
     vtResult result = vtCompareDirections(directions, truth, count, &report->all, error);
     if (result == vt_ok && request->events != NULL) {
-        result = loadEvents(request->events, &inputs[1], &events, error);
+        result = loadEvents(request->events, &request->limits, &inputs[1], &events, error);
         report->split = result == vt_ok;
     }
     if (report->split) {
@@ -427,7 +440,7 @@ vtResult vtRunCompare(int count, char** words, vtError* error)
     }
     Input inputs[2] = {0};
     for (int i = 0; i < 2 && result == vt_ok; ++i) {
-        result = loadInput(request.paths[i], &inputs[i], error);
+        result = loadInput(request.paths[i], &request.limits, &inputs[i], error);
     }
     if (result == vt_ok) {
         result = compareInputs(&request, inputs, error);

@@ -106,7 +106,8 @@ static void describeValue(vtObjectKey key, char* text, size_t size)
     if (row->most > 0) {
         snprintf(range, sizeof range, " from %g to %g", row->low, row->high);
     }
-    snprintf(text, size, "%s%s%s", count, range, key == vt_keyScale ? ", none of them 0" : "");
+    snprintf(text, size, "%s%s%s", count, range,
+             key == vt_keyScale ? ", none of them within 1e-09 of 0" : "");
 }
 
 static vtResult failValue(const Text* text, vtObjectKey key, const char* value, vtError* error)
@@ -172,8 +173,10 @@ static vtResult storeValue(const Text* text, vtObjectKey key, const char* value,
         if (next != NULL) {
             *next++ = '\0';
         }
-        good = count < row->most && readNumber(part, &numbers[count]) && numbers[count] >= row->low &&
-               numbers[count] <= row->high && (key != vt_keyScale || fabs(numbers[count]) >= 1e-9) &&
+        // As floats, which they become: a limit of 0.001f is above 0.001.
+        good = count < row->most && readNumber(part, &numbers[count]) &&
+               (float)numbers[count] >= (float)row->low && (float)numbers[count] <= (float)row->high &&
+               (key != vt_keyScale || fabs(numbers[count]) >= 1e-9) &&
                (!isWhole(key) || numbers[count] == floor(numbers[count]));
         ++count;
     }

@@ -10,7 +10,9 @@
 //   - every filter is applied as rows, then columns; the blue-yellow one, a sum of two Gaussians, as two;
 //   - features are found in Y of YCxCz as it is, with filters scaled by 1/116: their weights sum to zero, so
 //     the offset of 16 falls out;
-//   - input outside 0 to 1 is clamped, NaN is black: FLIP speaks of what a display can show.
+//   - input outside 0 to 1 is clamped, NaN is black: FLIP speaks of what a display can show;
+//   - pictures are seen in bands of rows, each with as many beside it as filters reach, so that a large one
+//     takes little memory.
 #include "lab/metrics/metrics_image.h"
 
 #include <assert.h>
@@ -20,8 +22,13 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "image/image.h"
 
-enum { maxRadius = 64 }; // reached at about 470 pixels a degree
+enum {
+    maxRadius = 64,       // reached at about 470 pixels a degree
+    leastRows = 64,       // of a band
+    mostPixels = 1 << 18, // of a band of more rows than that
+};
 
 /// Weights for offsets -radius to radius.
 typedef struct Filter {
@@ -39,6 +46,15 @@ typedef struct Filters {
 enum { planeL, planeA, planeB, planeEdge, planePoint, seenPlanes };
 enum { planeY, planeCx, planeCz, planeTemporary, planeResult, scratchPlanes };
 
+/// Linear RGB, 3 floats a pixel; or 8-bit sRGB, which `decoded` has as floats.
+typedef struct Picture {
+    const float* linear; // or NULL
+    const uint8_t* bytes;
+    size_t channels;
+    const float* decoded; // 256
+} Picture;
+
+/// A band of rows.
 typedef struct Raster {
     int width, height;
     size_t area;
@@ -213,12 +229,15 @@ static void findFeature(const Raster* raster, const Filter* derivative, const Fi
     }
 }
 
-static void splitChannels(const Raster* raster, const float* rgb)
+/// `first`: the band's first pixel in the picture.
+static void splitChannels(const Raster* raster, const Picture* picture, size_t first)
 {
     for (size_t i = 0; i < raster->area; ++i) {
         float shown[3], v[3];
-        for (int c = 0; c < 3; ++c) {
-            float value = rgb[3 * i + (size_t)c];
+        for (size_t c = 0; c < 3; ++c) {
+            const float value = picture->linear != NULL
+                                    ? picture->linear[3 * (first + i) + c]
+                                    : picture->decoded[picture->bytes[picture->channels * (first + i) + c]];
             shown[c] = value > 0.0f ? fminf(value, 1.0f) : 0.0f;
         }
         relativeXyz(shown, v);
@@ -248,9 +267,10 @@ static void fillLab(const Raster* raster, float* seen)
     }
 }
 
-static void see(const Raster* raster, const Filters* filters, const float* rgb, float* seen)
+static void see(const Raster* raster, const Filters* filters, const Picture* picture, size_t first,
+                float* seen)
 {
-    splitChannels(raster, rgb);
+    splitChannels(raster, picture, first);
 
     // Find edges and points before the spatial filters blur them.
     findFeature(raster, &filters->edge, &filters->smooth, seen + planeEdge * raster->area);
@@ -277,12 +297,15 @@ static float redistribute(float difference, float largest)
                              : 0.95f + 0.05f * (difference - knee) / (largest - knee);
 }
 
-static double combine(size_t area, const float* p, const float* q, float* map)
+/// The sum over a part of the band.
+static double combine(const Raster* raster, size_t first, size_t end, const float* p, const float* q,
+                      float* map)
 {
+    const size_t area = raster->area;
     const float largest =
         powf(hyab(huntLab((float[]){0.0f, 1.0f, 0.0f}), huntLab((float[]){0.0f, 0.0f, 1.0f})), 0.7f);
     double sum = 0.0;
-    for (size_t i = 0; i < area; ++i) {
+    for (size_t i = first; i < end; ++i) {
         vtVec3 labP = {p[planeL * area + i], p[planeA * area + i], p[planeB * area + i]};
         vtVec3 labQ = {q[planeL * area + i], q[planeA * area + i], q[planeB * area + i]};
         float colour = redistribute(powf(hyab(labP, labQ), 0.7f), largest);
@@ -292,32 +315,68 @@ static double combine(size_t area, const float* p, const float* q, float* map)
         float difference = powf(colour, 1.0f - feature);
         sum += (double)difference;
         if (map != NULL) {
-            map[i] = difference;
+            map[i - first] = difference;
         }
     }
-    return sum / (double)area;
+    return sum;
 }
 
-vtResult vtMeasureFlip(const float* reference, const float* test, int width, int height,
-                       double pixelsPerDegree, double* mean, float* map, vtError* error)
+static vtResult measure(const Picture pictures[2], int width, int height, double pixelsPerDegree,
+                        double* mean, float* map, vtError* error)
 {
     assert(width > 0 && height > 0 && pixelsPerDegree >= 1.0 && pixelsPerDegree <= 400.0);
-    Raster raster = {.width = width, .height = height, .area = (size_t)width * (size_t)height};
-    raster.scratch = malloc(sizeof(float) * scratchPlanes * raster.area);
-    raster.line = malloc(sizeof(float) * ((size_t)width + 2 * maxRadius));
-    float* seen = malloc(sizeof(float) * 2 * seenPlanes * raster.area);
+    const Filters filters = makeFilters(pixelsPerDegree);
+    const int reach =
+        filters.achromatic.radius > filters.edge.radius ? filters.achromatic.radius : filters.edge.radius;
+    const int rows = mostPixels / width > leastRows ? mostPixels / width : leastRows;
+    const size_t across = (size_t)width;
+    const size_t mostArea = across * (size_t)(height < rows + 2 * reach ? height : rows + 2 * reach);
+    Raster raster = {.width = width};
+    raster.scratch = malloc(sizeof(float) * scratchPlanes * mostArea);
+    raster.line = malloc(sizeof(float) * (across + 2 * maxRadius));
+    float* seen = malloc(sizeof(float) * 2 * seenPlanes * mostArea);
     vtResult result = vt_ok;
     if (raster.scratch == NULL || raster.line == NULL || seen == NULL) {
         result = vtFail(error, vt_errorMemory, "FLIP: out of memory for %d x %d", width, height);
     } else {
-        Filters filters = makeFilters(pixelsPerDegree);
-        see(&raster, &filters, reference, seen);
-        see(&raster, &filters, test, seen + seenPlanes * raster.area);
-        *mean = combine(raster.area, seen, seen + seenPlanes * raster.area, map);
+        double sum = 0.0;
+        for (int first = 0; first < height; first += rows) {
+            const int end = height - first < rows ? height : first + rows;
+            const int top = first < reach ? 0 : first - reach;
+            raster.height = (height - end < reach ? height : end + reach) - top;
+            raster.area = across * (size_t)raster.height;
+            float* other = seen + seenPlanes * raster.area;
+            see(&raster, &filters, &pictures[0], across * (size_t)top, seen);
+            see(&raster, &filters, &pictures[1], across * (size_t)top, other);
+            sum += combine(&raster, across * (size_t)(first - top), across * (size_t)(end - top), seen, other,
+                           map != NULL ? map + across * (size_t)first : NULL);
+        }
+        *mean = sum / ((double)width * (double)height);
         vtSucceed(error);
     }
     free(raster.scratch);
     free(raster.line);
     free(seen);
     return result;
+}
+
+vtResult vtMeasureFlip(const float* reference, const float* test, int width, int height,
+                       double pixelsPerDegree, double* mean, float* map, vtError* error)
+{
+    const Picture pictures[2] = {{.linear = reference}, {.linear = test}};
+    return measure(pictures, width, height, pixelsPerDegree, mean, map, error);
+}
+
+vtResult vtMeasureFlipBytes(const uint8_t* reference, const uint8_t* test, int channels, int width,
+                            int height, double pixelsPerDegree, double* mean, float* map, vtError* error)
+{
+    float decoded[256];
+    for (int i = 0; i < 256; ++i) {
+        decoded[i] = vtSrgbToLinear((float)i / 255.0f);
+    }
+    const Picture picture = {.channels = (size_t)channels, .decoded = decoded};
+    Picture pictures[2] = {picture, picture};
+    pictures[0].bytes = reference;
+    pictures[1].bytes = test;
+    return measure(pictures, width, height, pixelsPerDegree, mean, map, error);
 }

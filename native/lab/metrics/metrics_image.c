@@ -123,19 +123,6 @@ static void countDifferences(const uint8_t* a, const uint8_t* b, int channels, v
     result->psnr = squares > 0 ? 10.0 * log10(255.0 * 255.0 / mean) : (double)INFINITY;
 }
 
-static void decodeBytes(const uint8_t* bytes, int channels, size_t pixels, float* linear)
-{
-    float table[256];
-    for (int i = 0; i < 256; ++i) {
-        table[i] = vtSrgbToLinear((float)i / 255.0f);
-    }
-    for (size_t i = 0; i < pixels; ++i) {
-        for (size_t c = 0; c < 3; ++c) {
-            linear[3 * i + c] = table[bytes[(size_t)channels * i + c]];
-        }
-    }
-}
-
 vtResult vtComparePictureBytes(const uint8_t* a, const uint8_t* b, int channels, int width, int height,
                                vtPictureError* result, float* flipMap, vtError* error)
 {
@@ -143,19 +130,9 @@ vtResult vtComparePictureBytes(const uint8_t* a, const uint8_t* b, int channels,
     *result = (vtPictureError){.pixels = (size_t)width * (size_t)height};
     countDifferences(a, b, channels, result);
     vtResult outcome = measureSsim(a, b, channels, width, height, &result->ssim, error);
-    if (outcome != vt_ok) {
-        return outcome;
-    }
-    float* linear = malloc(sizeof(float) * 6 * result->pixels);
-    if (linear == NULL) {
-        return vtFail(error, vt_errorMemory, "comparison: out of memory for %d x %d", width, height);
-    }
-    decodeBytes(a, channels, result->pixels, linear);
-    decodeBytes(b, channels, result->pixels, linear + 3 * result->pixels);
-    outcome = vtMeasureFlip(linear, linear + 3 * result->pixels, width, height, VT_FLIP_PIXELS_PER_DEGREE,
-                            &result->flip, flipMap, error);
-    free(linear);
-    return outcome;
+    return outcome != vt_ok ? outcome
+                            : vtMeasureFlipBytes(a, b, channels, width, height, VT_FLIP_PIXELS_PER_DEGREE,
+                                                 &result->flip, flipMap, error);
 }
 
 static void encodeBytes(const float* linear, size_t count, uint8_t* bytes)

@@ -40,3 +40,7 @@ size_t vtPictureError_CountOver(const vtPictureError* result, int threshold);
 /// VT_FLIP_PIXELS_PER_DEGREE; `map` may be NULL.
 vtResult vtMeasureFlip(const float* reference, const float* test, int width, int height,
                        double pixelsPerDegree, double* mean, float* map, vtError* error);
+
+/// The same of 8-bit sRGB, `channels` (3 or 4, the fourth ignored) bytes a pixel.
+vtResult vtMeasureFlipBytes(const uint8_t* reference, const uint8_t* test, int channels, int width,
+                            int height, double pixelsPerDegree, double* mean, float* map, vtError* error);

@@ -118,6 +118,48 @@ static double flipOfConstants(float grey, float otherGrey)
     return mean;
 }
 
+/// Large pictures are seen in bands of rows: a picture's middle has the same numbers where it is a picture of
+/// its own, but for what filters reach of its ends.
+static void flipOfBands(void** state)
+{
+    (void)state;
+    enum { across = 40, down = 9000, from = 4000, to = 8000, beside = 40 };
+    const size_t row = 3 * across;
+    uint8_t* pictures[2];
+    float* maps[2];
+    for (int i = 0; i < 2; ++i) {
+        pictures[i] = malloc(row * down);
+        maps[i] = malloc(sizeof(float) * across * down);
+        assert_non_null(pictures[i]);
+        assert_non_null(maps[i]);
+        uint32_t random = 7u + (uint32_t)i;
+        for (size_t k = 0; k < row * down; ++k) {
+            random = random * 1664525u + 1013904223u;
+            pictures[i][k] = (uint8_t)(random >> 24);
+        }
+    }
+    double mean;
+    vtError error;
+    assert_ok(vtMeasureFlipBytes(pictures[0], pictures[1], 3, across, down, VT_FLIP_PIXELS_PER_DEGREE, &mean,
+                                 maps[0], &error),
+              error);
+    double sum = 0.0;
+    for (size_t i = 0; i < across * (size_t)down; ++i) {
+        sum += (double)maps[0][i];
+    }
+    assert_near(mean, sum / (across * (double)down), 1e-12);
+    assert_ok(vtMeasureFlipBytes(pictures[0] + row * (from - beside), pictures[1] + row * (from - beside), 3,
+                                 across, to - from + 2 * beside, VT_FLIP_PIXELS_PER_DEGREE, &mean, maps[1],
+                                 &error),
+              error);
+    assert_memory_equal(maps[0] + across * from, maps[1] + across * beside,
+                        sizeof(float) * across * (to - from));
+    for (int i = 0; i < 2; ++i) {
+        free(pictures[i]);
+        free(maps[i]);
+    }
+}
+
 /// Without chroma and features, FLIP is a function of the difference in lightness alone. The largest
 /// difference is between green (L 87.7) and blue (L 32.3) of sRGB, 203.3 in HyAB.
 static void flipOfGreys(void** state)
@@ -475,17 +517,12 @@ static void eventSplit(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(identicalPictures),
-        cmocka_unit_test(constantOffset),
-        cmocka_unit_test(ssimOfConstants),
-        cmocka_unit_test(ssimOfOthers),
-        cmocka_unit_test(flipOfGreys),
-        cmocka_unit_test(flipByDefinition),
-        cmocka_unit_test(linearInput),
-        cmocka_unit_test(colours),
-        cmocka_unit_test(angles),
-        cmocka_unit_test(directions),
-        cmocka_unit_test(eventSplit),
+        cmocka_unit_test(identicalPictures), cmocka_unit_test(constantOffset),
+        cmocka_unit_test(ssimOfConstants),   cmocka_unit_test(ssimOfOthers),
+        cmocka_unit_test(flipOfGreys),       cmocka_unit_test(flipOfBands),
+        cmocka_unit_test(flipByDefinition),  cmocka_unit_test(linearInput),
+        cmocka_unit_test(colours),           cmocka_unit_test(angles),
+        cmocka_unit_test(directions),        cmocka_unit_test(eventSplit),
     };
     return cmocka_run_group_tests_name("metrics", tests, NULL, NULL);
 }
