@@ -134,11 +134,22 @@ describe('pictures', () => {
       refuses(['render', 'sphere', ...small, ...words, '--max-pixels', '2047'], ['64 x 32 pixels, but at most 2047 are read', '--max-pixels']);
     }
     refuses(['render', 'grey.png', ...small, '--max-pixels', '2047'], ['64 x 32 pixels, but at most 2047']);
+    refuses(['compare', 'grey.png', 'grey.png', '--max-pixels', '2047'], ['64 x 32 pixels, but at most 2047']);
+    refuses(['compare', 'grey.png', 'grey.png', '--max-memory', '10K'], ['but a file may take 10240']);
+    assert.equal(run(['compare', 'grey.png', 'grey.png', '--max-pixels', '2048']).code, 0);
     refuses(['render', 'sphere', '-e', './grey.png', ...small, '--max-memory', '10K'], ['64 x 32 pixels takes 26624 bytes, but a file may take 10240', '--max-memory']);
     refuses(['render', 'sphere', '-r', '64,64', '-o', 'out.png', '--max-pixels', '4095'], ['--resolution is 64,64, 4096 pixels, but at most 4095 are drawn']);
     refuses(['render', 'sphere', '-r', '16384,16384', '-o', 'out.png'], ['268435456 pixels, but at most 67108864 are drawn']);
     assert.equal(run(['render', 'sphere', ...small, '-e', './grey.png', '--max-pixels', '2048']).code, 0);
     rmSync(join(folder, 'out.png'));
+  });
+
+  test('large pictures are compared in little memory beside them', () => {
+    write('large.png', bombs.png(2000, 2000));
+    const { code, megabytes, error } = run(['compare', 'large.png', 'large.png']);
+    assert.equal(code, 0, error);
+    const most = idle.megabytes + 4 * (2 * (12 + 3)) + 60; // floats and bytes of both, and a band
+    if (!isSanitized) assert.ok(megabytes <= most, `${megabytes} MB of ${most}`);
   });
 
   test('what PNG packs beside its pixels is not unpacked', () => {
