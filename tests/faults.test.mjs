@@ -208,6 +208,15 @@ function simulate() {
     viewer.remove();
     return first;
   };
+  /** What an element of its own says. */
+  window.refuse = async (wish) => {
+    const viewer = Object.assign(make(null), wish);
+    window.place.append(viewer);
+    await until(() => 'no sentence', () => says(viewer));
+    const said = says(viewer);
+    viewer.remove();
+    return said;
+  };
   /** An element that has a model is asked for one that the memory is too small for. @returns {{said: string, stays: boolean, turns: boolean}} the model before does, and can be seen from elsewhere */
   window.outgrowLater = async (wish, expected) => {
     const viewer = await window.keep();
@@ -231,13 +240,27 @@ function simulate() {
   window.pixels = pixels;
 }
 
+/** A server that never ends its answer. @returns {Promise<number>} how many bytes it sent until nobody read on */
+function sendEndlessly(response) {
+  const chunk = Buffer.alloc(65536, 'glTF');
+  let sent = 0;
+  response.writeHead(200, { 'content-type': 'application/octet-stream' });
+  const more = () => {
+    do sent += chunk.length; while (response.write(chunk));
+  };
+  response.on('drain', more);
+  more();
+  return new Promise((closed) => response.on('close', () => closed(sent)));
+}
+
 describe('the element where WebGL fails', { skip }, () => {
-  let server, browser;
+  let server, browser, endless;
 
   before(async () => {
     server = await listen((request, response) => {
       const { pathname } = new URL(request.url, 'http://localhost');
       if (files[pathname]) response.writeHead(200, { 'content-type': 'application/octet-stream' }).end(files[pathname]());
+      else if (pathname === '/endless.glb') endless = sendEndlessly(response);
       else if (pathname === '/') response.writeHead(200, { 'content-type': 'text/html' }).end(page);
       else answerWithFile(site, pathname, response);
     });
@@ -393,10 +416,11 @@ describe('the element where WebGL fails', { skip }, () => {
     for (const [wish, limits, sentence] of [
       [{ src: 'round.glb' }, { maxTriangles: 159199 }, /more than 159199 triangles/],
       [{ src: 'round.glb' }, { maxTriangles: 159200 }, /^$/],
-      [{ src: 'round.glb' }, { maxMemory: 1e6 }, /takes \d+ bytes, but all that is read of a file may take 1000000/],
+      [{ src: 'round.glb' }, { maxMemory: 1e6 }, /^round\.glb: it has more than 1000000 bytes; make it smaller, or allow more \(max-memory\)$/],
+      [{ src: 'round.glb' }, { maxMemory: 4e6 }, /takes \d+ bytes, but all that is read of a file may take 4000000/],
       [{ src: 'nodes.glb' }, { maxMemory: 1e8 }, /JSON take more than 3125000 bytes/],
       [{ environmentImage: 'sky.hdr' }, { maxPixels: 1e6 }, /2048 x 1024 pixels, but at most 1000000 are read/],
-      [{ environmentImage: 'sky.hdr' }, { maxMemory: 1e6 }, /2048 x 1024 pixels takes \d+ bytes, but a file may take 1000000/],
+      [{ environmentImage: 'sky.hdr' }, { maxMemory: 1e7 }, /2048 x 1024 pixels takes \d+ bytes, but a file may take 10000000/],
       [{ environmentImage: 'picture.png' }, { maxPixels: 2047 }, pixels],
       [{ environmentImage: 'picture.png' }, { maxPixels: 2048 }, /^$/],
       [{ background: './picture.png' }, { maxPixels: 2047 }, pixels],
@@ -406,6 +430,10 @@ describe('the element where WebGL fails', { skip }, () => {
     ]) {
       assert.match(await opened.evaluate(([what, most]) => window.limit(what, most), [wish, limits]), sentence, JSON.stringify({ ...wish, ...limits }));
     }
+    const said = await opened.evaluate(() => window.refuse({ src: 'endless.glb', maxMemory: 3e6 }));
+    assert.equal(said, 'endless.glb: it has more than 3000000 bytes; make it smaller, or allow more (max-memory)');
+    const sent = await endless;
+    assert.ok(sent < 3e7, `${sent} bytes were sent`);
     const later = await opened.evaluate(async () => { // of an element whose module has no limits
       const expected = await window.expect('exact'), viewer = await window.keep();
       const said = await window.outgrowLater({ src: 'round.glb', maxTriangles: 100 }, expected);

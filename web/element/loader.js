@@ -10,6 +10,7 @@ export class Loader {
   progress = null;
   #told;
   #abort = null;
+  #most; // bytes of a file
 
   /**
    * @param {object} told
@@ -29,10 +30,12 @@ export class Loader {
    * Loads what differs from what is held, in place of any load before.
    * @param {{environment: {url: string}, background: {url: string}, model: ReturnType<import('./loading.js').wishOf>}} wishes url '': none
    * @param {{environment: object|null, background: object|null, model: object|null}} held sources
+   * @param {number} [most] bytes of a file
    * @returns {Promise<boolean>} false where another load has begun, or this was aborted
    */
-  async load(wishes, held) {
+  async load(wishes, held, most) {
     this.abort();
+    this.#most = most;
     const { signal } = (this.#abort = new AbortController());
     const isNew = (kind) => wishes[kind].url !== '' && held[kind]?.url !== wishes[kind].url;
     const parts = held.model?.parts ?? [];
@@ -105,6 +108,6 @@ export class Loader {
     const { progress } = this;
     const key = `${kind} ${url}`;
     progress?.expect(key);
-    return fetchSource(url, signal, (received, total) => progress?.bytes(key, received, total));
+    return fetchSource(url, signal, (received, total) => progress?.bytes(key, received, total), this.#most);
   }
 }

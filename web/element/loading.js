@@ -79,9 +79,10 @@ async function explain(href, { message }) {
  * @param {string} url relative to the page
  * @param {AbortSignal} signal
  * @param {(received: number, total: number) => void} onBytes total is 0 where the server does not say
+ * @param {number} most bytes: a server may send without end
  * @returns {Promise<Source>} @throws {Error} a sentence
  */
-export async function fetchSource(url, signal, onBytes) {
+export async function fetchSource(url, signal, onBytes, most = 2 ** 31) {
   const { href, pathname } = new URL(url, document.baseURI);
   const name = pathname.split('/').pop() || url;
   const response = await fetch(href, { signal }).catch(async (reason) => {
@@ -95,10 +96,10 @@ export async function fetchSource(url, signal, onBytes) {
   // A compressed transfer counts other bytes than its length.
   const plain = !response.headers.get('content-encoding');
   const total = plain ? Number(response.headers.get('content-length')) || 0 : 0;
-  const chunks = [];
+  const chunks = [], reader = response.body.getReader();
   let received = 0;
   try {
-    for (const reader = response.body.getReader(); ;) {
+    while (Math.max(received, total) <= most) {
       const { done, value } = await reader.read();
       if (done) break;
       chunks.push(value);
@@ -107,6 +108,10 @@ export async function fetchSource(url, signal, onBytes) {
   } catch (reason) {
     if (signal.aborted) throw reason;
     throw new Error(`${name}: broke off after ${received} bytes: ${reason.message}`, { cause: reason });
+  }
+  if (Math.max(received, total) > most) {
+    reader.cancel().catch(() => {});
+    throw new Error(`${name}: it has more than ${most} bytes; make it smaller, or allow more (max-memory)`);
   }
   const bytes = new Uint8Array(received);
   let place = 0;

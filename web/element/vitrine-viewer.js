@@ -424,7 +424,7 @@ export class VitrineViewer extends (globalThis.HTMLElement ?? class {}) {
     if (this.#stage.scene.model?.url !== model.url) this.#isLoaded = false;
     for (const cause of ['model', 'environment', 'background', 'pictures']) this.#say(cause, '');
     const environment = (!this.hasAttribute('environment-image') && skyboxImage) || environmentImage || 'studio';
-    if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, this.#stage.latest))) return;
+    if (!(await this.#loader.load({ environment: { url: environment }, background: { url: readBackground(this.#background).kind === 4 ? this.#background : '' }, model }, this.#stage.latest, this.#values.maxMemory ?? undefined))) return;
     this.#openCore();
   }
 
