@@ -1144,6 +1144,13 @@ describe('glTF files', () => {
       assert.ok(text.includes(words), `${words} is not in ${text}`);
     }
     assert.equal(vitrine(['inspect', 'nothing.glb']).code, 1);
+    // Numbers of any size, and a name that is no text, are JSON all the same.
+    parts.json.nodes[0].scale = [1e-9, 1e-9, 1e-9];
+    write('small.glb', glb(parts));
+    const result = spawnSync('bash', ['-c', `cp small.glb $'\\xff"\\x7f\\xc3\\xa9.glb'; "${binary}" inspect $'\\xff"\\x7f\\xc3\\xa9.glb' --json`], { cwd: folder });
+    const tiny = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(result.stdout));
+    assert.equal(tiny.file, '\ufffd"\x7f\u00e9.glb');
+    assert.deepEqual(tiny.boundsMax.map((value) => Math.fround(value)), Array(3).fill(Math.fround(1e-9)));
     assert.match(vitrine(['inspect']).error, /^vitrine: no file given/);
     // Its camera: 2 units of 3 are 43 of 64 rows.
     const [left, right, top, bottom] = extent(join(folder, name), ...small, '--camera-index', 'side');

@@ -159,9 +159,9 @@ static void writeLines(vtJson* json, const char* name, const char* lines)
 static void writeVector(vtJson* json, const char* name, vtVec3 v)
 {
     vtJson_BeginArray(json, name);
-    vtJson_Number(json, NULL, (double)v.x, 6);
-    vtJson_Number(json, NULL, (double)v.y, 6);
-    vtJson_Number(json, NULL, (double)v.z, 6);
+    vtJson_Float(json, NULL, v.x);
+    vtJson_Float(json, NULL, v.y);
+    vtJson_Float(json, NULL, v.z);
     vtJson_EndArray(json);
 }
 
@@ -208,7 +208,7 @@ static void writeCameras(vtJson* json, const vtScene* scene)
         writeVector(json, "eye", camera->view.eye);
         writeVector(json, "target", camera->view.target);
         vtJson_Number(json, "fov", (double)camera->view.fovY, 4);
-        vtJson_Number(json, "orthographicHeight", (double)camera->orthographicHeight, 6);
+        vtJson_Float(json, "orthographicHeight", camera->orthographicHeight);
         vtJson_EndObject(json);
     }
     vtJson_EndArray(json);

@@ -2,18 +2,42 @@
 
 #include <math.h>
 
+/// Bytes of the UTF-8 character that a text begins with; 0: it is none (RFC 3629).
+static int countBytes(const unsigned char* text)
+{
+    const unsigned first = text[0];
+    const int count = first < 0x80   ? 1
+                      : first < 0xc2 ? 0
+                      : first < 0xe0 ? 2
+                      : first < 0xf0 ? 3
+                      : first < 0xf5 ? 4
+                                     : 0;
+    for (int i = 1; i < count; ++i) {
+        if ((text[i] & 0xc0) != 0x80) {
+            return 0;
+        }
+    }
+    const bool isLong = (first == 0xe0 && text[1] < 0xa0) || (first == 0xf0 && text[1] < 0x90);
+    const bool isNone = (first == 0xed && text[1] > 0x9f) || (first == 0xf4 && text[1] > 0x8f);
+    return isLong || isNone ? 0 : count;
+}
+
+/// A byte that is no text, as names of files may have, becomes U+FFFD.
 static void writeText(FILE* out, const char* text)
 {
     fputc('"', out);
-    for (; *text != '\0'; ++text) {
-        const unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\') {
-            fprintf(out, "\\%c", c);
-        } else if (c < 32) {
-            fprintf(out, "\\u%04x", (unsigned)c);
+    for (const unsigned char* at = (const unsigned char*)text; *at != '\0';) {
+        const int count = countBytes(at);
+        if (count == 0) {
+            fputs("\\ufffd", out);
+        } else if (*at == '"' || *at == '\\') {
+            fprintf(out, "\\%c", *at);
+        } else if (*at < 32 || *at == 127) {
+            fprintf(out, "\\u%04x", (unsigned)*at);
         } else {
-            fputc(c, out);
+            fwrite(at, 1, (size_t)count, out);
         }
+        at += count > 0 ? count : 1;
     }
     fputc('"', out);
 }
@@ -79,6 +103,16 @@ void vtJson_Number(vtJson* json, const char* name, double value, int decimals)
     begin(json, name);
     if (isfinite(value)) {
         fprintf(json->out, "%.*f", decimals, value);
+    } else {
+        fputs("null", json->out);
+    }
+}
+
+void vtJson_Float(vtJson* json, const char* name, float value)
+{
+    begin(json, name);
+    if (isfinite(value)) {
+        fprintf(json->out, "%.9g", (double)value);
     } else {
         fputs("null", json->out);
     }

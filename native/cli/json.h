@@ -18,3 +18,5 @@ void vtJson_EndArray(vtJson* json);
 void vtJson_Text(vtJson* json, const char* name, const char* text);
 void vtJson_Integer(vtJson* json, const char* name, long long value);
 void vtJson_Number(vtJson* json, const char* name, double value, int decimals);
+/// As it is: nine digits, whatever its size.
+void vtJson_Float(vtJson* json, const char* name, float value);

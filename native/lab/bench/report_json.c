@@ -113,9 +113,9 @@ static void writeRow(vtJson* json, const vtBench* bench, const vtBenchCase* meas
 static void writePoint(vtJson* json, const char* name, vtVec3 point)
 {
     vtJson_BeginArray(json, name);
-    vtJson_Number(json, NULL, (double)point.x, 6);
-    vtJson_Number(json, NULL, (double)point.y, 6);
-    vtJson_Number(json, NULL, (double)point.z, 6);
+    vtJson_Float(json, NULL, point.x);
+    vtJson_Float(json, NULL, point.y);
+    vtJson_Float(json, NULL, point.z);
     vtJson_EndArray(json);
 }
 
