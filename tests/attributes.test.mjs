@@ -1,6 +1,6 @@
 // The element's attributes, whatever their text: each gives a value that fits or its default, with a sentence, and no
 // parser throws anything but a sentence. Texts are made by chance of parts that fit and parts that do not; the numbers
-// are the same each time. VITRINE_ATTRIBUTE_RUNS: how many texts (20,000).
+// are the same each time. VITRINE_ATTRIBUTE_RUNS: how many texts (20,000; 2,000,000 where VITRINE_LONG is 1).
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { attributes, readAttribute, readAttributes } from '../web/element/attributes.js';
@@ -8,7 +8,7 @@ import { readGround } from '../web/element/ground.js';
 import { builtIn, readBackground } from '../web/element/loading.js';
 import { Orbit, parseFieldOfView, parseOrbit, parsePlacement, parseTarget } from '../web/element/orbit.js';
 
-const runs = Number(process.env.VITRINE_ATTRIBUTE_RUNS ?? 20000);
+const runs = Number(process.env.VITRINE_ATTRIBUTE_RUNS ?? (process.env.VITRINE_LONG === '1' ? 2000000 : 20000));
 
 /** Numbers from 0 to 1, by mulberry32. */
 function chance(seed) {
