@@ -25,18 +25,30 @@ const units = ['deg', 'rad', 'm', 'cm', 'mm', '%', '', 'DEG', 'px', 'constructor
 const words = ['auto', 'none', 'on', 'off', 'true', 'null', 'undefined', 'blurred:', '#f0e8d8', '#', 'sphere', 'a.png', 'http://[', '\0', '\ud800', '💎', 'constructor', '__proto__', ' '];
 const gaps = [' ', ',', '  ', '\t', '\n', ';', ':', '/', '\u00a0', ''];
 
-/** A text that looks like a value, for the most part. */
+const small = ['0', '.25', '0.5', '1', '1e-3'];
+const angles = ['deg', 'rad'], lengths = ['m', 'cm', 'mm'], plain = [''];
+/** What is between the parts, and the units of each: orbits, targets, orientations, fields of view, scales, colours, suns. */
+const forms = [[' ', angles, angles, [...lengths, '%']], [' ', lengths, lengths, lengths], [' ', angles, angles, angles], [' ', angles],
+  [' ', plain, plain, plain], [',', plain, plain, plain], [',', ...Array(4).fill(plain)], [',', ...Array(7).fill(plain)]];
+
+/** A text that looks like a value, for the most part; half of them have the form of one. */
 function text(random) {
   const pick = (list) => list[Math.floor(random() * list.length)];
+  if (random() < 0.5) {
+    const [between, ...units] = pick(forms);
+    return units.map((list) => (random() < 0.1 ? 'auto' : pick(random() < 0.5 ? small : numbers) + pick(list))).join(between);
+  }
   const piece = () => (random() < 0.6 ? pick(numbers) + pick(units) : random() < 0.7 ? pick(words) : pick(attributes.find(({ values }) => values && random() < 0.3)?.values ?? words));
   const gap = pick(gaps);
   return Array.from({ length: 1 + Math.floor(random() * 7) }, piece).join(random() < 0.8 ? gap : pick(gaps));
 }
 
-/** What a parser gives, or null where it throws a sentence that names what was written. */
-function sentenceOr(parse, name, given) {
+/** What a parser gives, or null where it throws a sentence that names what was written; `fitting` counts the former. */
+function sentenceOr(parse, name, given, fitting) {
   try {
-    return parse();
+    const value = parse();
+    fitting[name] = (fitting[name] ?? 0) + 1;
+    return value;
   } catch (reason) {
     assert.equal(reason.constructor, Error, `${name} '${given}' throws ${reason.stack}`);
     assert.ok(reason.message.startsWith(`${name} is '`), reason.message);
@@ -59,17 +71,17 @@ test(`each of ${runs} texts gives a value that fits or the default, with a sente
 });
 
 test(`orbits, targets, placements and fields of view of ${runs} texts are finite, or a sentence`, () => {
-  const random = chance(2), finite = (list, says) => assert.ok(list.every((value) => value === null || Number.isFinite(value)), says);
+  const random = chance(2), fitting = {}, finite = (list, says) => assert.ok(list.every((value) => value === null || Number.isFinite(value)), says);
   for (let i = 0; i < runs; ++i) {
     const given = text(random), scale = random() < 0.5 ? '1 1 1' : text(random), says = `'${given}', scale '${scale}'`;
-    const orbit = sentenceOr(() => parseOrbit(given), 'camera-orbit', given);
-    const target = sentenceOr(() => parseTarget(given), 'camera-target', given);
-    const field = sentenceOr(() => parseFieldOfView(given), 'field-of-view', given);
+    const orbit = sentenceOr(() => parseOrbit(given), 'camera-orbit', given, fitting);
+    const target = sentenceOr(() => parseTarget(given), 'camera-target', given, fitting);
+    const field = sentenceOr(() => parseFieldOfView(given), 'field-of-view', given, fitting);
     if (orbit) finite([orbit.theta, orbit.phi, orbit.radius?.value ?? null], says);
     if (target) finite(target, says);
     if (field !== null) assert.ok(field >= 1 && field <= 170, says);
-    const turned = sentenceOr(() => parsePlacement(given, '1 1 1'), 'orientation', given);
-    const scaled = sentenceOr(() => parsePlacement('0deg 0deg 0deg', scale), 'scale', scale);
+    const turned = sentenceOr(() => parsePlacement(given, '1 1 1'), 'orientation', given, fitting);
+    const scaled = sentenceOr(() => parsePlacement('0deg 0deg 0deg', scale), 'scale', scale, fitting);
     for (const keys of [turned, scaled]) if (keys) finite(keys.split(/[=,]/).filter((part) => part !== 'rotate' && part !== 'scale').map(Number), `${says}: ${keys}`);
     const view = new Orbit();
     if (orbit) view.place(orbit);
@@ -79,18 +91,26 @@ test(`orbits, targets, placements and fields of view of ${runs} texts are finite
     finite([view.theta, view.phi, view.distance, ...view.target], says);
     assert.ok(view.phi > 0 && view.phi < Math.PI && view.distance > 0, says);
   }
+  for (const name of ['camera-orbit', 'camera-target', 'field-of-view', 'orientation', 'scale']) assert.ok(fitting[name] > runs / 1000, `${fitting[name]} of ${name} fit`);
 });
 
 test(`grounds, backgrounds and built-in names of ${runs} texts fit, or a sentence is said`, () => {
   const random = chance(3);
+  let colors = 0, suns = 0;
   for (let i = 0; i < runs; ++i) {
-    const given = text(random), { ground, problems } = readGround({ ground: true, groundColor: given, sun: text(random), shadowIntensity: null, shadowSoftness: 0 });
-    assert.ok(ground.length === 14 && ground.every(Number.isFinite), `ground-color='${given}' gives ${ground}`);
+    const given = text(random), sun = text(random), { ground, problems } = readGround({ ground: true, groundColor: given, sun, shadowIntensity: null, shadowSoftness: 0 });
+    const floats = ground.map(Math.fround), says = `ground-color='${given}', sun='${sun}' give ${floats}`;
+    const isGiven = sun !== '' && !problems.some((problem) => problem.startsWith('sun'));
+    assert.ok(floats.length === 14 && floats.every(Number.isFinite), says);
+    assert.equal(Math.hypot(...floats.slice(7, 10)) > 0, isGiven, says);
+    colors += floats[3];
+    suns += isGiven;
     assert.ok(problems.every((problem) => /^(ground-color|sun) is '/.test(problem)), `${problems}`);
     const back = readBackground(given);
     if (back) assert.ok(back.kind >= 0 && back.kind <= 4 && back.blur >= 1 && back.blur <= 90 && back.color.every((part) => part >= 0 && part <= 1), `background='${given}'`);
     for (const kind of ['model', 'relief', 'environment', 'background']) builtIn(kind, given);
   }
+  assert.ok(colors > runs / 1000 && suns > runs / 1000, `${colors} colours of grounds, ${suns} suns fit`);
 });
 
 test('an element whose attributes are all nonsense has values all the same', () => {

@@ -62,6 +62,14 @@ static inline vtVec3 vtNormalize(vtVec3 a)
     return length > 0.0f ? vtScale(a, 1.0f / length) : (vtVec3){0.0f, 0.0f, 0.0f};
 }
 
+/// As vtNormalize, but of any finite length: its square may be more or less than floats can be.
+static inline vtVec3 vtNormalizeAny(vtVec3 a)
+{
+    int exponent;
+    (void)frexpf(fmaxf(fabsf(a.x), fmaxf(fabsf(a.y), fabsf(a.z))), &exponent);
+    return vtNormalize((vtVec3){ldexpf(a.x, -exponent), ldexpf(a.y, -exponent), ldexpf(a.z, -exponent)});
+}
+
 static inline float vtClamp(float x, float low, float high)
 {
     return x < low ? low : x > high ? high : x;

@@ -55,7 +55,7 @@ vtResult vtValidateGround(const vtGround* ground, vtError* error)
     }
     const vtVec3 sun = ground->sunDirection;
     const bool none = sun.x == 0.0f && sun.y == 0.0f && sun.z == 0.0f;
-    if (!none && (!isFinite(sun) || !(sun.y > 0.02f * vtLength(sun)))) {
+    if (!none && (!isFinite(sun) || !(vtNormalizeAny(sun).y > 0.02f))) {
         return vtFail(error, vt_errorArgument,
                       "ground: the sun's direction is %g, %g, %g; it must point up, by more than a degree",
                       (double)sun.x, (double)sun.y, (double)sun.z);

@@ -161,10 +161,11 @@ vtVec3 vtSampleWithoutSun(const vtEnvironment* environment, const vtSun* sun, vt
 
 vtSun vtGivenSun(const vtGround* ground, const vtSun* found)
 {
-    if (!(vtLength(ground->sunDirection) > 0.0f)) {
+    const vtVec3 direction = vtNormalizeAny(ground->sunDirection);
+    if (!(vtLength(direction) > 0.0f)) {
         return *found;
     }
-    return (vtSun){.direction = vtNormalize(ground->sunDirection),
+    return (vtSun){.direction = direction,
                    .radius = 0.5f * ground->sunSize * VT_PI / 180.0f,
                    .irradiance = ground->sunColor};
 }

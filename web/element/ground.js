@@ -31,9 +31,10 @@ export function readGround({ ground, groundColor, sun, shadowIntensity, shadowSo
     if (value && !isThere) problems.push(`${name} says something of a ground; add ground`);
   }
   const [x, y, z, size, ...irradiance] = light || [0, 0, 0];
+  const length = Math.hypot(x, y, z) || 1; // which floats may not hold
   return {
     ground: [Number(isThere), intensity, shadowSoftness, Number(Boolean(color)), ...(color || [0, 0, 0]),
-      x, y, z, size ?? 0.53, ...(irradiance.length > 0 ? irradiance : [3, 3, 3])],
+      x / length, y / length, z / length, size ?? 0.53, ...(irradiance.length > 0 ? irradiance : [3, 3, 3])],
     problems,
   };
 }

@@ -282,6 +282,26 @@ static void withoutIntensityNothingIsSeen(void** state)
     free(before);
 }
 
+static void aSunsDirectionHasAnyLength(void** state)
+{
+    (void)state;
+    vtError error;
+    const vtSun none = {.direction = {0.0f, -1.0f, 0.0f}};
+    static const float lengths[] = {1e-45f, 1e-30f, 1e-18f, 1.0f, 1e18f, 1e30f, 3e38f};
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; ++i) {
+        vtGround ground = vtDefaultGround();
+        ground.sunDirection = (vtVec3){-lengths[i], lengths[i], lengths[i]};
+        assert_ok(vtValidateGround(&ground, &error), error);
+        const vtVec3 to = vtGivenSun(&ground, &none).direction;
+        const float one = sqrtf(1.0f / 3.0f);
+        assert_true(vtLength(vtSub(to, (vtVec3){-one, one, one})) < 1e-6f);
+        ground.sunDirection.y = 0.0f;
+        assert_int_equal(vtValidateGround(&ground, &error), vt_errorArgument);
+    }
+    const vtGround own = vtDefaultGround();
+    assert_true(vtGivenSun(&own, &none).direction.y == -1.0f);
+}
+
 static void badGroundsAreRefused(void** state)
 {
     Fixture* fixture = *state;
@@ -312,6 +332,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(aBoxOfGlassIsMetFromBelow, setUp, tearDown),
         cmocka_unit_test_setup_teardown(aLampLightsTheGround, setUp, tearDown),
         cmocka_unit_test(aSunIsFound),
+        cmocka_unit_test(aSunsDirectionHasAnyLength),
         cmocka_unit_test(freeGroundHasAllItsLight),
         cmocka_unit_test_setup_teardown(withoutIntensityNothingIsSeen, setUp, tearDown),
         cmocka_unit_test_setup_teardown(badGroundsAreRefused, setUp, tearDown),
