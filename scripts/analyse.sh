@@ -18,4 +18,8 @@ echo "== cppcheck"
 cppcheck --quiet --std=c11 --enable=warning,portability,performance --suppressions-list=scripts/cppcheck.txt \
   --error-exitcode=1 -I src -I build/analyse/include -j 2 src native web/core web/three
 echo "== clang-tidy"
-git ls-files 'src/*.c' 'src/*.cpp' 'native/*.c' | xargs -P 2 -n 8 clang-tidy --quiet -p build/analyse
+git ls-files 'src/*.c' 'src/*.cpp' 'native/*.c' 'tests/*.c' 'tests/*.cpp' | xargs -P 2 -n 8 clang-tidy --quiet -p build/analyse
+if command -v emcc >/dev/null; then
+  # shellcheck disable=SC2046 # they are words
+  clang-tidy --quiet $(git ls-files 'web/*.c') -- $(emcc --cflags) -std=c11 -I . -I src -I web -I native -D VT_WITH_GLFW -D VT_IS_FULL=1
+fi

@@ -156,7 +156,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size)
     }
     words[count] = NULL;
     optind = 0; // getopt forgets the words of the run before
-    getopt(1, none, "");
+    (void)getopt(1, none, "");
     runWords(count, words);
     return 0;
 }

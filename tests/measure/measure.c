@@ -1,6 +1,7 @@
 // Runs a program: `measure SECONDS PROGRAM WORDS...`. Its last line on standard error is then the seconds
 // that it took of the processor and the kilobytes that it held at most, and its exit code the program's; 99
 // where a signal ended it, as SIGALRM does after so many seconds.
+#define _DEFAULT_SOURCE // wait4
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
