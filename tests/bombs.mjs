@@ -198,12 +198,16 @@ const varint = (value) => {
   return [...bytes, value];
 };
 
-/** A primitive that Draco packs, or says so: as many faces and vertices. */
-export function draco(faces, vertices, method = 1) {
-  const packed = Buffer.from([...Buffer.from('DRACO'), 2, 2, 1, method, 0, 0, ...(method === 1 ? [0, ...varint(vertices), ...varint(faces)] : [...varint(faces), ...varint(vertices), 1]), ...Array(64).fill(0)]);
+/** A primitive that Draco packs, or says so: as many faces and vertices, by accessors of `told`. */
+export function draco(faces, vertices, { method = 1, version = [2, 2], symbols = 0, told = { faces, vertices } } = {}) {
+  const whole = (value) => [value, value >> 8, value >> 16, value >> 24].map((byte) => byte & 0xff);
+  const number = version[0] < 2 ? whole : varint;
+  const inOrder = [...varint(faces), ...varint(vertices), 1];
+  const connectivity = [0, ...(version[0] < 2 ? whole(0) : []), ...number(vertices), ...number(faces), 0, ...number(symbols), ...number(0)];
+  const packed = Buffer.from([...Buffer.from('DRACO'), ...version, 1, method, 0, 0, ...(method === 0 ? inOrder : connectivity), ...Array(64).fill(0)]);
   const json = {
     asset: { version: '2.0' }, buffers: [{ byteLength: packed.length }], bufferViews: [{ buffer: 0, byteLength: packed.length }], extensionsUsed: ['KHR_draco_mesh_compression'],
-    accessors: [{ componentType: 5126, count: vertices, type: 'VEC3' }, { componentType: 5125, count: 3 * faces, type: 'SCALAR' }],
+    accessors: [{ componentType: 5126, count: told.vertices, type: 'VEC3' }, { componentType: 5125, count: 3 * told.faces, type: 'SCALAR' }],
     meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, extensions: { KHR_draco_mesh_compression: { bufferView: 0, attributes: { POSITION: 0 } } } }] }],
     nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }],
   };

@@ -48,7 +48,7 @@ function write(name, bytes) {
   return name;
 }
 
-const million = 1e6;
+const million = 1e6, triangle = { faces: 1, vertices: 3 };
 const small = ['-r', '16,16', '-t', 'reference', '-o', 'out.png'];
 
 describe('models', () => {
@@ -76,9 +76,13 @@ describe('models', () => {
     'vertices of meshoptimizer.glb': [() => bombs.meshopt(8 * million), 'in 36 bytes, too few for the 2048000000 that it declares'],
     'triangles of meshoptimizer.glb': [() => bombs.meshopt(12 * million, 'TRIANGLES', 4), 'in 36 bytes, too few for the 48000000 that it declares'],
     'faces of Draco.glb': [() => bombs.draco(300 * million, 100 * million), 'it has more than 50000000 triangles'],
-    'faces of Draco, in order.glb': [() => bombs.draco(300 * million, 100 * million, 0), 'it has more than 50000000 triangles'],
+    'faces of Draco, in order.glb': [() => bombs.draco(300 * million, 100 * million, { method: 0 }), 'it has more than 50000000 triangles'],
     'less faces of Draco.glb': [() => bombs.draco(16 * million, 8 * million), 'cannot be unpacked'],
-    'less faces of Draco, in order.glb': [() => bombs.draco(16 * million, 8 * million, 0), 'cannot be unpacked'],
+    'less faces of Draco, in order.glb': [() => bombs.draco(16 * million, 8 * million, { method: 0 }), 'cannot be unpacked'],
+    'untold faces of Draco.glb': [() => bombs.draco(300 * million, 100 * million, { symbols: 300 * million, told: triangle }), 'it has more than 50000000 triangles'],
+    'less untold faces of Draco.glb': [() => bombs.draco(40 * million, 60 * million, { symbols: 40 * million, told: triangle }), 'a packed primitive takes 2240000000 bytes', ['--max-memory', '2G']],
+    'untold vertices of Draco.glb': [() => bombs.draco(1, 4200 * million, { method: 0, told: triangle }), 'a packed primitive takes 33600000044 bytes'],
+    'an old version of Draco.glb': [() => bombs.draco(16 * million, 8 * million, { version: [1, 248], symbols: 16 * million, told: triangle }), "has version 1.248 of Draco's bitstream, but glTF has 2.2"],
   };
   for (const [name, [make, part, more]] of Object.entries(files)) {
     test(name, () => {

@@ -27,8 +27,8 @@ static inline vtSpace vtOuterSpace(void)
 static inline vtSpace vtSpaceOfBox(vtVec3 low, vtVec3 high)
 {
     const vtVec3 middle = vtAdd(vtScale(low, 0.5f), vtScale(high, 0.5f));
-    const vtVec3 half = vtSub(high, middle);
-    const float largest = fmaxf(half.x, fmaxf(half.y, half.z)); // twice that may be no float
+    const vtVec3 up = vtSub(high, middle), down = vtSub(middle, low); // one may be 0: the middle is rounded
+    const float largest = fmaxf(fmaxf(fmaxf(up.x, down.x), fmaxf(up.y, down.y)), fmaxf(up.z, down.z));
     const bool usual = !(largest > 0.0f) || (largest >= 0x1p-13f && largest <= 0x1p11f);
     const int exponent = usual ? 0 : -1 - ilogbf(largest);
     return (vtSpace){middle, ldexpf(1.0f, exponent < -126 ? -126 : exponent > 126 ? 126 : exponent)};

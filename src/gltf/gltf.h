@@ -162,10 +162,16 @@ struct Loader : Report {
     /// Tells what else is worth knowing, a line by itself: "2 meshes were inside out".
     void note(const char* format, ...) VT_PRINTF(2, 3);
 
+    /// Is so much memory left, for what is given back soon? Else fails.
+    bool canSpend(uint64_t bytes, const std::string& what);
+
     /// Takes bytes off what is left of the memory, or fails where it is used up.
     bool spend(uint64_t bytes, const std::string& what);
 
-    /// The same of triangles.
+    /// Is so many triangles what a whole file may have? Else fails.
+    bool canHaveTriangles(uint64_t count);
+
+    /// Takes triangles off what is left of them, or fails.
     bool spendTriangles(uint64_t count);
 
     /// Is `index` one of `count`? Else fails.

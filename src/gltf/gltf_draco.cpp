@@ -1,9 +1,13 @@
-// KHR_draco_mesh_compression: primitives packed by Draco.
+// KHR_draco_mesh_compression: primitives packed by Draco, in version 2.2 of its bitstream
+// (https://google.github.io/draco/spec/).
 
 #include "gltf/gltf.h"
 
 #ifdef VT_WITH_DRACO
-#include <draco/compression/decode.h>
+#include <draco/compression/config/compression_shared.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
+#include <draco/core/varint_decoding.h>
 #endif
 
 namespace vtGltf
@@ -97,6 +101,100 @@ static bool readTriangles(Loader& loader, const draco::Mesh& mesh, Stream* indic
     return true;
 }
 
+/// A decoder of Draco's that looks at the numbers that a stream declares before it takes memory for them: a
+/// few bytes may declare billions.
+template <typename Method> class Decoder : public Method
+{
+  public:
+    explicit Decoder(Loader& owner) : loader(owner)
+    {
+    }
+
+    /// Has the loader been told why it fails?
+    bool isRefused() const
+    {
+        return refused;
+    }
+
+  protected:
+    bool DecodeGeometryData() override
+    {
+        draco::DecoderBuffer ahead = *this->buffer();
+        const bool isInOrder = std::is_same<Method, draco::MeshSequentialDecoder>::value;
+        uint32_t first = 0, second = 0;
+        if (!draco::DecodeVarint(&first, &ahead) || !draco::DecodeVarint(&second, &ahead)) {
+            return false;
+        }
+        const uint64_t faces = isInOrder ? first : second, vertices = isInOrder ? second : first;
+        // As the connectivity has them: a corner's vertex, its neighbour, the face and two lists of faces.
+        const uint64_t faceBytes = 3 * (4 + 4 + 4) + 4 + 4, vertexBytes = 4 + 4;
+        return allow(loader.canHaveTriangles(faces) &&
+                     loader.canSpend(faces * faceBytes + vertices * vertexBytes, "a packed primitive")) &&
+               Method::DecodeGeometryData();
+    }
+
+    /// Each number is there twice: as it is stored, and as it comes out.
+    bool DecodeAllAttributes() override
+    {
+        const draco::PointCloud& points = *this->point_cloud();
+        uint64_t bytes = 0;
+        for (int32_t i = 0; i < points.num_attributes(); ++i) {
+            const draco::PointAttribute& attribute = *points.attribute(i);
+            const uint64_t width = 4 + (uint64_t)draco::DataTypeLength(attribute.data_type());
+            bytes += points.num_points() * width * (uint64_t)attribute.num_components();
+        }
+        return allow(loader.canSpend(bytes, "a packed primitive")) && Method::DecodeAllAttributes();
+    }
+
+  private:
+    bool allow(bool allowed)
+    {
+        refused = !allowed;
+        return allowed;
+    }
+
+    Loader& loader;
+    bool refused = false;
+};
+
+template <typename Method> static bool decode(Loader& loader, draco::DecoderBuffer* buffer, draco::Mesh* mesh)
+{
+    Decoder<Method> decoder(loader);
+    const draco::Status status = decoder.Decode(draco::DecoderOptions(), buffer, mesh);
+    return status.ok() ||
+           (!decoder.isRefused() &&
+            loader.fail(vt_errorFormat, "a packed primitive cannot be unpacked (%s)" GLTF_DAMAGED,
+                        withoutStop(status.error_msg_string()).c_str()));
+}
+
+static bool decodeMesh(Loader& loader, const Bytes& packed, draco::Mesh* mesh)
+{
+    draco::DecoderBuffer buffer, ahead;
+    draco::DracoHeader header;
+    buffer.Init((const char*)packed.data, packed.size);
+    ahead = buffer;
+    if (!draco::PointCloudDecoder::DecodeHeader(&ahead, &header).ok()) {
+        return loader.fail(vt_errorFormat, "a packed primitive is not packed by Draco" GLTF_DAMAGED);
+    }
+    if (header.version_major != 2 || header.version_minor != 2) {
+        return loader.fail(
+            vt_errorFormat,
+            "a packed primitive has version %d.%d of Draco's bitstream, but glTF has 2.2; export "
+            "it again",
+            header.version_major, header.version_minor);
+    }
+    switch (header.encoder_method) {
+    case draco::MESH_SEQUENTIAL_ENCODING:
+        return decode<draco::MeshSequentialDecoder>(loader, &buffer, mesh);
+    case draco::MESH_EDGEBREAKER_ENCODING:
+        return decode<draco::MeshEdgebreakerDecoder>(loader, &buffer, mesh);
+    default:
+        return loader.fail(vt_errorFormat,
+                           "a packed primitive has method %d, which Draco has not" GLTF_DAMAGED,
+                           header.encoder_method);
+    }
+}
+
 bool decodePrimitive(Loader& loader, const tinygltf::Primitive& primitive, Streams* streams)
 {
     const tinygltf::Value& about = primitive.extensions.at("KHR_draco_mesh_compression");
@@ -108,15 +206,10 @@ bool decodePrimitive(Loader& loader, const tinygltf::Primitive& primitive, Strea
                   &packed)) {
         return false;
     }
-    draco::DecoderBuffer buffer;
-    buffer.Init((const char*)packed.data, packed.size);
-    draco::Decoder decoder;
-    draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!decoded.ok()) {
-        return loader.fail(vt_errorFormat, "a packed primitive cannot be unpacked (%s)" GLTF_DAMAGED,
-                           withoutStop(decoded.status().error_msg_string()).c_str());
+    draco::Mesh mesh;
+    if (!decodeMesh(loader, packed, &mesh)) {
+        return false;
     }
-    const draco::Mesh& mesh = *decoded.value();
     const tinygltf::Value& attributes = about.Get("attributes");
     for (const std::string& name : attributes.Keys()) {
         const auto accessor = primitive.attributes.find(name);

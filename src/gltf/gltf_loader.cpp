@@ -42,24 +42,40 @@ void Loader::note(const char* format, ...)
     va_end(arguments);
 }
 
+bool Loader::canSpend(uint64_t bytes, const std::string& what)
+{
+    return bytes <= left.memory ||
+           fail(vt_errorMemory,
+                "%s takes %llu bytes, but all that is read of a file may take %llu; simplify "
+                "it" VT_ALLOW("--max-memory"),
+                what.c_str(), (unsigned long long)bytes, (unsigned long long)limits.memory);
+}
+
 bool Loader::spend(uint64_t bytes, const std::string& what)
 {
-    if (bytes > left.memory) {
-        return fail(vt_errorMemory,
-                    "%s takes %llu bytes, but all that is read of a file may take %llu; simplify "
-                    "it" VT_ALLOW("--max-memory"),
-                    what.c_str(), (unsigned long long)bytes, (unsigned long long)limits.memory);
+    if (!canSpend(bytes, what)) {
+        return false;
     }
     left.memory -= bytes;
     return true;
 }
 
+static bool failTriangles(Loader& loader)
+{
+    return loader.fail(vt_errorMemory,
+                       "it has more than %llu triangles; simplify it" VT_ALLOW("--max-triangles"),
+                       (unsigned long long)loader.limits.triangles);
+}
+
+bool Loader::canHaveTriangles(uint64_t count)
+{
+    return count <= limits.triangles || failTriangles(*this);
+}
+
 bool Loader::spendTriangles(uint64_t count)
 {
     if (count > left.triangles) {
-        return fail(vt_errorMemory,
-                    "it has more than %llu triangles; simplify it" VT_ALLOW("--max-triangles"),
-                    (unsigned long long)limits.triangles);
+        return failTriangles(*this);
     }
     left.triangles -= count;
     return true;

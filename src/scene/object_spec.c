@@ -112,7 +112,7 @@ static void describeValue(vtObjectKey key, char* text, size_t size)
 
 static vtResult failValue(const Text* text, vtObjectKey key, const char* value, vtError* error)
 {
-    char allowed[96];
+    char allowed[128]; // what describeValue writes at most, and its end
     describeValue(key, allowed, sizeof allowed);
     return vtFail(error, vt_errorArgument, "%s '%.200s': %s is '%.100s'; it must be %s", text->option,
                   text->whole, keys[key].name, value, allowed);

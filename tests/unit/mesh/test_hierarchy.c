@@ -287,6 +287,27 @@ static void sizes(void** state)
     vtDestroyMesh(&plain);
 }
 
+/// A mesh as thick as floats are apart, along one axis, and less along the others.
+static void thinAsARounding(void** state)
+{
+    (void)state;
+    const float under = nextafterf(0x1p-29f, 0.0f), high = 0x1p-29f, little = 0x1.fcp-128f;
+    const float positions[12] = {-little, 0.0f,   high, little, 0.0f,   high,
+                                 -little, little, high, little, little, under};
+    const uint32_t indices[6] = {0, 1, 2, 2, 1, 3};
+    const vtMeshDef def = {.positions = positions, .vertexCount = 4, .indices = indices, .indexCount = 6};
+    vtMesh mesh;
+    vtHierarchy hierarchy;
+    vtError error;
+    assert_ok(vtCreateMesh(&def, "thin", &mesh, &error), error);
+    assert_ok(vtCreateHierarchy(&mesh, &hierarchy, &error), error);
+    const vtVec3 low = hierarchy.gridLow, scale = hierarchy.gridScale;
+    assert_true(isfinite(low.x) && isfinite(low.y) && isfinite(low.z));
+    assert_true(isfinite(scale.x) && isfinite(scale.y) && isfinite(scale.z));
+    vtDestroyHierarchy(&hierarchy);
+    vtDestroyMesh(&mesh);
+}
+
 /// Of round things most children have cones, and most leaves two triangles.
 static void quality(void** state)
 {
@@ -446,7 +467,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(records),      cmocka_unit_test(quality), cmocka_unit_test(slices),
         cmocka_unit_test(leavingEarly), cmocka_unit_test(refit),   cmocka_unit_test(wear),
-        cmocka_unit_test(fineShapes),   cmocka_unit_test(sizes),
+        cmocka_unit_test(fineShapes),   cmocka_unit_test(sizes),   cmocka_unit_test(thinAsARounding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
