@@ -9,6 +9,7 @@ import { after, before, beforeEach, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { answerWithFile, chromiumPath, launch, listen, openPage, quiet, skipWithout } from './browser-tools.mjs';
 import { ball, box, colored, edited, matt, model, quad, solid, thin, unlit } from './case-models.mjs';
+import * as bombs from './bombs.mjs';
 import { apart, packDraco, packMeshopt, packPicture, withPicture, within } from './packed-models.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -194,6 +195,8 @@ describe('files in the element', { skip }, () => {
     same(t, 'as the native program', seen, native('draco.glb', exact), 0.3);
     same(t, 'of 14 bits', await show('draco14.glb', await packDraco(plain, { bits: 14 })), expected, 0.3);
     same(t, 'as .gltf', await show('draco.gltf', within(exact)), expected, 0.1);
+    const told = await packDraco(plain, { bits: 14, inOrder: true, metadata: true });
+    same(t, 'in order, with metadata', await show('metadata.glb', told), native('metadata.glb', told), 0.3);
     Object.assign(files, apart(exact, 'draco apart'));
     same(t, 'in several files', await show('draco apart.gltf'), expected, 0.1);
   });
@@ -273,6 +276,10 @@ describe('files in the element', { skip }, () => {
     assert.match(await refusal('cut.glb', edited(draco, ({ bufferViews }) => (bufferViews[0].byteLength = 40))), /^model 'cut\.glb': a packed primitive cannot be unpacked \(.+\); the file is damaged, export it again$/);
     assert.match(await refusal('id.glb', edited(draco, ({ meshes }) => (meshes[0].primitives[0].extensions.KHR_draco_mesh_compression.attributes.NORMAL = 77))), /it has no NORMAL as its accessor says/);
     assert.match(await refusal('type.glb', edited(draco, ({ meshes, accessors }) => (accessors[meshes[0].primitives[0].attributes.NORMAL].type = 'VEC2'))), /it has no NORMAL as its accessor says/);
+    const lies = { faces: 1, vertices: 3 };
+    assert.match(await refusal('bomb.glb', bombs.draco(4e7, 9e7, { symbols: 4e7, told: lies })), /its data take more than 2147483648 bytes; simplify it/);
+    assert.match(await refusal('in order.glb', bombs.draco(1, 4e9, { method: 0, told: lies })), /its data take more than 2147483648 bytes; simplify it/);
+    assert.match(await refusal('old.glb', bombs.draco(9, 9, { version: [1, 248], told: lies })), /cannot be unpacked \(it has version 1\.248 of Draco's bitstream, but glTF has 2\.2\)/);
     const how = (change) => edited(meshopt, ({ bufferViews }) => change(bufferViews[0].extensions.EXT_meshopt_compression));
     assert.match(await refusal('mode.glb', how((one) => (one.mode = 'WORDS'))), /^model 'mode\.glb': buffer view 0 cannot be unpacked \(mode WORDS, filter NONE, \d+ elements of 12 bytes\); the file is damaged/);
     assert.match(await refusal('stride.glb', how((one) => (one.byteStride = 260))), /elements of 260 bytes/);

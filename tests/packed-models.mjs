@@ -47,8 +47,11 @@ function keepImages(file, bin) {
   for (const image of file.json.images ?? []) image.bufferView = bin.add(viewBytes(file, image.bufferView));
 }
 
-/** A .glb whose primitives are packed by Draco: normals and places quantized where bits are given, colours of 8 bits. */
-export async function packDraco(bytes, { bits } = {}) {
+/**
+ * A .glb whose primitives are packed by Draco: normals and places quantized where bits are given, colours of 8 bits; one
+ * triangle after the other where it is inOrder, not by Edgebreaker; with metadata of the mesh and of its places.
+ */
+export async function packDraco(bytes, { bits, inOrder = false, metadata = false } = {}) {
   const draco = await createRequire(import.meta.url)('draco3dgltf').createEncoderModule();
   const file = parts(bytes), { json } = file, bin = new Bin();
   const kinds = { POSITION: draco.POSITION, NORMAL: draco.NORMAL, TEXCOORD_0: draco.TEX_COORD, COLOR_0: draco.COLOR };
@@ -66,7 +69,16 @@ export async function packDraco(bytes, { bits } = {}) {
         if (bits) encoder.SetAttributeQuantization(kinds[name], bits);
       }
     }
-    encoder.SetEncodingMethod(draco.MESH_EDGEBREAKER_ENCODING);
+    if (metadata) {
+      const about = new draco.MetadataBuilder(), all = new draco.Metadata(), places = new draco.Metadata();
+      for (const one of [all, places]) {
+        about.AddStringEntry(one, 'name', 'a name '.repeat(40));
+        about.AddIntEntry(one, 'number', 7);
+      }
+      builder.AddMetadata(mesh, all);
+      builder.SetMetadataForAttribute(mesh, ids.POSITION, places);
+    }
+    encoder.SetEncodingMethod(inOrder ? draco.MESH_SEQUENTIAL_ENCODING : draco.MESH_EDGEBREAKER_ENCODING);
     const size = encoder.EncodeMeshToDracoBuffer(mesh, packed);
     const view = bin.add(Uint8Array.from({ length: size }, (_, i) => packed.GetValue(i)));
     primitive.extensions = { ...primitive.extensions, KHR_draco_mesh_compression: { bufferView: view, attributes: ids } };
