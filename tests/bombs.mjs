@@ -198,12 +198,12 @@ const varint = (value) => {
   return [...bytes, value];
 };
 
-/** A primitive that Draco packs, or says so: as many faces and vertices, by accessors of `told`. */
-export function draco(faces, vertices, { method = 1, version = [2, 2], symbols = 0, told = { faces, vertices } } = {}) {
+/** A primitive that Draco packs, or says so: as many faces and vertices, by accessors of `told`; traversal 0: standard, 2: by valence. */
+export function draco(faces, vertices, { method = 1, version = [2, 2], symbols = 0, traversal = 0, told = { faces, vertices } } = {}) {
   const whole = (value) => [value, value >> 8, value >> 16, value >> 24].map((byte) => byte & 0xff);
   const number = version[0] < 2 ? whole : varint;
   const inOrder = [...varint(faces), ...varint(vertices), 1];
-  const connectivity = [0, ...(version[0] < 2 ? whole(0) : []), ...number(vertices), ...number(faces), 0, ...number(symbols), ...number(0)];
+  const connectivity = [traversal, ...(version[0] < 2 ? whole(0) : []), ...number(vertices), ...number(faces), 0, ...number(symbols), ...number(0)];
   const packed = Buffer.from([...Buffer.from('DRACO'), ...version, 1, method, 0, 0, ...(method === 0 ? inOrder : connectivity), ...Array(64).fill(0)]);
   const json = {
     asset: { version: '2.0' }, buffers: [{ byteLength: packed.length }], bufferViews: [{ buffer: 0, byteLength: packed.length }], extensionsUsed: ['KHR_draco_mesh_compression'],

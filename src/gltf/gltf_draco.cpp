@@ -106,7 +106,8 @@ static bool readTriangles(Loader& loader, const draco::Mesh& mesh, Stream* indic
 template <typename Method> class Decoder : public Method
 {
   public:
-    explicit Decoder(Loader& owner) : loader(owner)
+    /// `most`: of triangles and of vertices, by the accessors.
+    Decoder(Loader& owner, uint64_t most) : loader(owner), largest(most)
     {
     }
 
@@ -121,11 +122,22 @@ template <typename Method> class Decoder : public Method
     {
         draco::DecoderBuffer ahead = *this->buffer();
         const bool isInOrder = std::is_same<Method, draco::MeshSequentialDecoder>::value;
+        // Its way through the triangles stands just before; the standard one has a bit at least for three
+        // quarters of them.
+        const bool hasBits = !isInOrder && ahead.data_head()[-1] == draco::MESH_EDGEBREAKER_STANDARD_ENCODING;
         uint32_t first = 0, second = 0;
         if (!draco::DecodeVarint(&first, &ahead) || !draco::DecodeVarint(&second, &ahead)) {
             return false;
         }
         const uint64_t faces = isInOrder ? first : second, vertices = isInOrder ? second : first;
+        const uint64_t left = (uint64_t)ahead.remaining_size();
+        if (faces > largest || vertices > largest || (hasBits && 3 * faces > 4 * 8 * left)) {
+            return allow(
+                loader.fail(vt_errorFormat,
+                            "a packed primitive declares %u triangles and %u vertices, which neither "
+                            "its %zu bytes nor its accessors have" GLTF_DAMAGED,
+                            (unsigned)faces, (unsigned)vertices, (size_t)left));
+        }
         // As the connectivity has them: a corner's vertex, its neighbour, the face and two lists of faces.
         const uint64_t faceBytes = 3 * (4 + 4 + 4) + 4 + 4, vertexBytes = 4 + 4;
         return allow(loader.canHaveTriangles(faces) &&
@@ -154,12 +166,29 @@ template <typename Method> class Decoder : public Method
     }
 
     Loader& loader;
+    uint64_t largest;
     bool refused = false;
 };
 
-template <typename Method> static bool decode(Loader& loader, draco::DecoderBuffer* buffer, draco::Mesh* mesh)
+/// What the accessors of a primitive let it have of triangles and of vertices. Of a few, more: some programs
+/// count them wrongly.
+static uint64_t mostOf(const Loader& loader, const tinygltf::Primitive& primitive)
 {
-    Decoder<Method> decoder(loader);
+    const std::vector<tinygltf::Accessor>& accessors = loader.model.accessors;
+    uint64_t most = 1u << 20;
+    for (const char* name : {"", "POSITION"}) { // "": indices
+        const auto at = primitive.attributes.find(name);
+        if (at != primitive.attributes.end() && (size_t)at->second < accessors.size()) {
+            most = std::max(most, (uint64_t)accessors[(size_t)at->second].count);
+        }
+    }
+    return most;
+}
+
+template <typename Method>
+static bool decode(Loader& loader, uint64_t most, draco::DecoderBuffer* buffer, draco::Mesh* mesh)
+{
+    Decoder<Method> decoder(loader, most);
     const draco::Status status = decoder.Decode(draco::DecoderOptions(), buffer, mesh);
     return status.ok() ||
            (!decoder.isRefused() &&
@@ -167,7 +196,7 @@ template <typename Method> static bool decode(Loader& loader, draco::DecoderBuff
                         withoutStop(status.error_msg_string()).c_str()));
 }
 
-static bool decodeMesh(Loader& loader, const Bytes& packed, draco::Mesh* mesh)
+static bool decodeMesh(Loader& loader, uint64_t most, const Bytes& packed, draco::Mesh* mesh)
 {
     draco::DecoderBuffer buffer, ahead;
     draco::DracoHeader header;
@@ -185,9 +214,9 @@ static bool decodeMesh(Loader& loader, const Bytes& packed, draco::Mesh* mesh)
     }
     switch (header.encoder_method) {
     case draco::MESH_SEQUENTIAL_ENCODING:
-        return decode<draco::MeshSequentialDecoder>(loader, &buffer, mesh);
+        return decode<draco::MeshSequentialDecoder>(loader, most, &buffer, mesh);
     case draco::MESH_EDGEBREAKER_ENCODING:
-        return decode<draco::MeshEdgebreakerDecoder>(loader, &buffer, mesh);
+        return decode<draco::MeshEdgebreakerDecoder>(loader, most, &buffer, mesh);
     default:
         return loader.fail(vt_errorFormat,
                            "a packed primitive has method %d, which Draco has not" GLTF_DAMAGED,
@@ -207,7 +236,7 @@ bool decodePrimitive(Loader& loader, const tinygltf::Primitive& primitive, Strea
         return false;
     }
     draco::Mesh mesh;
-    if (!decodeMesh(loader, packed, &mesh)) {
+    if (!decodeMesh(loader, mostOf(loader, primitive), packed, &mesh)) {
         return false;
     }
     const tinygltf::Value& attributes = about.Get("attributes");

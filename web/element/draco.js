@@ -34,10 +34,12 @@ function take(draco, size, write) {
 /**
  * The numbers that a stream declares before its connectivity, so that nobody takes memory for what a few bytes say:
  * sections 2 to 4 of https://google.github.io/draco/spec/.
+ * @param {Uint8Array} bytes
+ * @param {number} most of triangles and of vertices
  * @returns {{faces: number, vertices: number}}
- * @throws {Error} where it is of another version than glTF has, or ends
+ * @throws {Error} where it is of another version than glTF has, ends, or declares more than it can have
  */
-function declared(bytes) {
+function declared(bytes, most) {
   let at = 0;
   const byte = () => {
     if (at >= bytes.length) throw new Error('it ends too early');
@@ -75,21 +77,25 @@ function declared(bytes) {
     }
     skipMetadata();
   }
-  if (!isInOrder) skip(1); // how its triangles follow one another
-  const first = number(), second = number();
-  return isInOrder ? { faces: first, vertices: second } : { faces: second, vertices: first };
+  const hasBits = !isInOrder && byte() === 0; // one at least for three quarters of the triangles
+  const first = number(), second = number(), [faces, vertices] = isInOrder ? [first, second] : [second, first], left = bytes.length - at;
+  if (faces > most || vertices > most || (hasBits && 3 * faces > 4 * 8 * left)) {
+    throw new Error(`it declares ${faces} triangles and ${vertices} vertices, which neither its ${left} bytes nor its accessors have`);
+  }
+  return { faces, vertices };
 }
 
 /**
  * @param draco what load gave
  * @param {Uint8Array} bytes
  * @param {Map<string, {id: number, componentType: number, components: number}>} wanted by the names of attributes
+ * @param {number} most of triangles and of vertices, by the accessors
  * @param {(size: number) => void} spend told of sizes before memory is taken; may throw
  * @returns {{vertexCount: number, attributes: Map<string, Uint8Array>, indices: Uint8Array}} indices of 32 bits
  * @throws {Error} why not
  */
-export function decode(draco, bytes, wanted, spend) {
-  const { faces, vertices } = declared(bytes), inside = 44 * faces + 8 * vertices; // as gltf_draco.cpp counts them
+export function decode(draco, bytes, wanted, most, spend) {
+  const { faces, vertices } = declared(bytes, most), inside = 44 * faces + 8 * vertices; // as gltf_draco.cpp counts them
   spend(inside);
   const decoder = new draco.Decoder(), mesh = new draco.Mesh();
   try {

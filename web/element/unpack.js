@@ -161,7 +161,9 @@ class Repacking {
       wanted.set(name, { id: attributes[name], componentType, components: componentsOf[type] });
     }
     const bytes = await this.#part(this.#element('bufferViews', bufferView, 'buffer view'));
-    const { vertexCount, attributes: unpacked, indices } = await this.#unpack('draco', 'a packed primitive', bytes, wanted);
+    const told = [primitive.indices, primitive.attributes.POSITION].map((index) => this.#json.accessors?.[index]?.count ?? 0);
+    const most = Math.max(2 ** 20, ...told); // of a few, more than is told: some programs count them wrongly
+    const { vertexCount, attributes: unpacked, indices } = await this.#unpack('draco', 'a packed primitive', bytes, wanted, most);
     const addAccessor = (data, like) => this.#json.accessors.push({ ...like, bufferView: this.#add(data), byteOffset: 0, sparse: undefined }) - 1;
     for (const [name, data] of unpacked) {
       primitive.attributes[name] = addAccessor(data, { ...this.#json.accessors[primitive.attributes[name]], count: vertexCount });
