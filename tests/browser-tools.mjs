@@ -1,9 +1,11 @@
-// What all programs that drive Chromium share: where it is, how it is started, and a server for what it shows.
+// What all programs that drive browsers share: where they are, how they are started, and a server for what they show.
 import { existsSync, readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
+import { startDisplay, xvfbPath } from './display.mjs';
 
 export const chromiumPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+export const firefoxPath = process.env.FIREFOX ?? '/usr/bin/firefox-esr';
 
 /** Mesa's llvmpipe is the faster of the two software GPUs; SwiftShader is Chromium's own. */
 export const gpus = {
@@ -25,6 +27,22 @@ const flags = ['--no-sandbox', '--disable-sync', '--disable-quic', '--no-first-r
 export async function launch(gpu = 'llvmpipe', options = {}) {
   const { chromium } = await import('playwright-core');
   return chromium.launch({ executablePath: chromiumPath, args: [...flags, ...gpus[gpu]], timeout: patience, ...options });
+}
+
+/** What Firefox needs, for skipWithout. */
+export const firefoxNeeds = [[existsSync(firefoxPath), firefoxPath], [existsSync(xvfbPath), 'Xvfb']];
+
+/** Firefox by puppeteer-core over WebDriver BiDi, on a display of its own: without one it has no WebGL. */
+export async function launchFirefox(options = {}) {
+  const { default: puppeteer } = await import('puppeteer-core'), screen = await startDisplay();
+  try {
+    const browser = await puppeteer.launch({ browser: 'firefox', executablePath: firefoxPath, headless: false, env: { ...process.env, DISPLAY: screen.display }, timeout: patience, ...options });
+    browser.once('disconnected', () => screen.stop());
+    return browser;
+  } catch (reason) {
+    screen.stop();
+    throw reason;
+  }
 }
 
 const types = {
@@ -129,14 +147,29 @@ export async function openPage(browser, options = {}) {
     if (protocol.startsWith('http') && !['localhost', '127.0.0.1'].includes(hostname)) throw new Error(`a page asked another host: ${request.url()}`);
   });
   await context.addInitScript(watchWork);
-  const page = await context.newPage(), asked = { pending: new Set(), come: 0 };
-  scripts.set(page, asked);
-  page.on('request', (request) => request.resourceType() === 'script' && asked.pending.add(request));
-  for (const type of ['requestfinished', 'requestfailed']) page.on(type, (request) => asked.pending.delete(request) && ++asked.come);
+  const page = await context.newPage();
+  watchScripts(page);
   return page;
 }
 
-/** Until the page of openPage has nothing to do: no frame, short timer, file, script, picture or animation is awaited. */
+function watchScripts(page) {
+  const asked = { pending: new Set(), come: 0 };
+  scripts.set(page, asked);
+  page.on('request', (request) => /\.m?js$/.test(new URL(request.url()).pathname) && asked.pending.add(request));
+  for (const type of ['requestfinished', 'requestfailed']) page.on(type, (request) => asked.pending.delete(request) && ++asked.come);
+}
+
+/** A page of launchFirefox's, for which `quiet` waits, too. */
+export async function openFirefoxPage(browser, { width, height }) {
+  const page = await browser.newPage();
+  page.setDefaultTimeout(patience);
+  await page.setViewport({ width, height });
+  await page.evaluateOnNewDocument(watchWork);
+  watchScripts(page);
+  return page;
+}
+
+/** Until the page of openPage or openFirefoxPage has nothing to do: no frame, short timer, file, script, picture or animation is awaited. */
 export async function quiet(page) {
   const asked = scripts.get(page);
   let come;

@@ -5,22 +5,19 @@ import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { answerWithFile, chromiumPath, launch, listen, openPage, patience, quiet, skipWithout } from './browser-tools.mjs';
-import { startDisplay, xvfbPath } from './display.mjs';
+import { answerWithFile, chromiumPath, firefoxNeeds, launch, launchFirefox, listen, openPage, patience, quiet, skipWithout } from './browser-tools.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
 const screenshots = join(here, '../build/screenshots');
-const firefoxPath = process.env.FIREFOX ?? '/usr/bin/firefox-esr';
 const modules = await Promise.all(['puppeteer-core', 'pngjs', 'pixelmatch'].map((name) => import(name))).catch(() => null);
 const skip = skipWithout(
   [modules, "node modules (run 'npm ci' in tests/)"],
   [existsSync(join(site, 'element/vitrine-viewer.js')), `${site}/element`],
   [existsSync(chromiumPath), chromiumPath],
-  [existsSync(firefoxPath), firefoxPath],
-  [existsSync(xvfbPath), 'Xvfb'],
+  ...firefoxNeeds,
 );
-const [{ default: puppeteer }, { PNG }, { default: pixelmatch }] = modules ?? [{}, {}, {}];
+const [, { PNG }, { default: pixelmatch }] = modules ?? [{}, {}, {}];
 
 const head = '<!doctype html><html lang="en"><title>Test</title><link rel="icon" href="data:,"><style>body { margin: 0; background: rgb(20, 90, 40); display: flex; flex-wrap: wrap; align-content: start } vitrine-viewer { width: 160px; height: 160px }</style><script type="module" src="/element/vitrine-viewer.js"></script>';
 const body = `<vitrine-viewer id="a" src="knot" environment-image="sky" samples="4" interpolation-decay="0"></vitrine-viewer>${
@@ -39,7 +36,7 @@ const over = `<style>canvas { position: absolute; width: 300px; height: 200px; o
   }</script>`;
 
 describe('the element in Firefox', { skip }, () => {
-  let server, screen, firefox, chromium;
+  let server, firefox, chromium;
 
   before(async () => {
     mkdirSync(screenshots, { recursive: true });
@@ -49,14 +46,12 @@ describe('the element in Firefox', { skip }, () => {
       if (page) response.writeHead(200, { 'content-type': 'text/html' }).end(page);
       else answerWithFile(site, pathname, response);
     });
-    screen = await startDisplay();
-    firefox = await puppeteer.launch({ browser: 'firefox', executablePath: firefoxPath, headless: false, env: { ...process.env, DISPLAY: screen.display }, timeout: patience });
+    firefox = await launchFirefox();
     chromium = await launch();
   });
   after(async () => {
     await firefox?.close();
     await chromium?.close();
-    screen?.stop();
     server?.close();
   });
 

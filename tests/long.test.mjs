@@ -8,16 +8,15 @@ import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { answerWithFile, chromiumPath, gpus, listen, patience, skipWithout } from './browser-tools.mjs';
-import { startDisplay, xvfbPath } from './display.mjs';
+import { answerWithFile, chromiumPath, firefoxNeeds, gpus, launchFirefox, listen, patience, skipWithout } from './browser-tools.mjs';
 import { memoryOf } from './memory.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
 const binary = resolve(process.env.VITRINE_BINARY ?? join(here, '../build/release/vitrine'));
-const firefoxPath = process.env.FIREFOX ?? '/usr/bin/firefox-esr';
 const frames = Number(process.env.LONG_FRAMES ?? 5000), programs = Number(process.env.LONG_PROGRAMS ?? 200);
 const rounds = 10;
+const settings = { timeout: patience, protocolTimeout: 3600000 };
 const puppeteer = await import('puppeteer-core').catch(() => null);
 const needed = [[puppeteer, "node modules (run 'npm ci' in tests/)"], [existsSync(join(site, 'element/vitrine-viewer.js')), `${site}/element`]];
 
@@ -73,7 +72,7 @@ const page = `<!doctype html><html lang="en"><title>Test</title><link rel="icon"
   <vitrine-viewer id="a" src="diamond" samples="1" interpolation-decay="0" loading="eager"></vitrine-viewer>`;
 
 describe('thousands of frames on a page', { skip: skipWithout(...needed) }, () => {
-  let server, screen;
+  let server;
   before(async () => {
     server = await listen((request, response) => {
       const { pathname } = new URL(request.url, 'http://localhost');
@@ -82,12 +81,10 @@ describe('thousands of frames on a page', { skip: skipWithout(...needed) }, () =
     });
   });
   after(() => {
-    screen?.stop();
     server?.close();
   });
 
-  async function play(t, options) {
-    const browser = await puppeteer.default.launch({ timeout: patience, protocolTimeout: 3600000, ...options });
+  async function play(t, browser) {
     t.after(() => browser.close());
     const opened = await browser.newPage();
     await opened.setViewport({ width: 200, height: 200 });
@@ -112,12 +109,11 @@ describe('thousands of frames on a page', { skip: skipWithout(...needed) }, () =
   }
 
   test('in Chromium', { skip: skipWithout([existsSync(chromiumPath), chromiumPath]) }, async (t) => {
-    await play(t, { executablePath: chromiumPath, headless: true, args: ['--no-sandbox', '--disable-gpu-watchdog', ...gpus.llvmpipe] });
+    await play(t, await puppeteer.default.launch({ executablePath: chromiumPath, headless: true, args: ['--no-sandbox', '--disable-gpu-watchdog', ...gpus.llvmpipe], ...settings }));
   });
 
-  test('in Firefox', { skip: skipWithout([existsSync(firefoxPath), firefoxPath], [existsSync(xvfbPath), 'Xvfb']) }, async (t) => {
-    screen = await startDisplay();
-    await play(t, { browser: 'firefox', executablePath: firefoxPath, headless: false, env: { ...process.env, DISPLAY: screen.display } });
+  test('in Firefox', { skip: skipWithout(...firefoxNeeds) }, async (t) => {
+    await play(t, await launchFirefox(settings));
   });
 });
 

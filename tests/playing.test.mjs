@@ -5,14 +5,12 @@ import { existsSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { answerWithFile, chromiumPath, gpus, listen, patience, skipWithout } from './browser-tools.mjs';
+import { answerWithFile, chromiumPath, firefoxNeeds, gpus, launchFirefox, listen, patience, skipWithout } from './browser-tools.mjs';
 import { ball, edited, model, solid } from './case-models.mjs';
-import { startDisplay, xvfbPath } from './display.mjs';
 import { memoryOf } from './memory.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const site = resolve(process.env.VITRINE_WEB ?? join(here, '../build/web'));
-const firefoxPath = process.env.FIREFOX ?? '/usr/bin/firefox-esr';
 const seconds = Number(process.env.PLAY_SECONDS ?? 60);
 const puppeteer = await import('puppeteer-core').catch(() => null);
 const needed = [[puppeteer, "node modules (run 'npm ci' in tests/)"], [existsSync(join(site, 'element/vitrine-viewer.js')), `${site}/element`]];
@@ -41,7 +39,7 @@ const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseco
 const mean = (numbers) => numbers.reduce((sum, one) => sum + one, 0) / numbers.length;
 
 describe('an animated glass model is played', { skip: skipWithout(...needed) }, () => {
-  let server, screen;
+  let server;
   before(async () => {
     const file = leaning();
     const page = '<!doctype html><html lang="en"><title>Test</title><link rel="icon" href="data:,"><style>vitrine-viewer { width: 200px; height: 200px }</style><script type="module" src="/element/vitrine-viewer.js"></script><vitrine-viewer id="a" src="/leaning.glb" autoplay></vitrine-viewer>';
@@ -53,7 +51,6 @@ describe('an animated glass model is played', { skip: skipWithout(...needed) }, 
     });
   });
   after(() => {
-    screen?.stop();
     server?.close();
   });
 
@@ -88,8 +85,7 @@ describe('an animated glass model is played', { skip: skipWithout(...needed) }, 
     told.blocks.arithmetic = arithmetic;
   };
 
-  async function play(t, options) {
-    const browser = await puppeteer.default.launch({ timeout: patience, ...options });
+  async function play(t, browser) {
     t.after(() => browser.close());
     const page = await browser.newPage();
     await page.setViewport({ width: 300, height: 300 });
@@ -122,11 +118,10 @@ describe('an animated glass model is played', { skip: skipWithout(...needed) }, 
   }
 
   test('in Chromium', { skip: skipWithout([existsSync(chromiumPath), chromiumPath]) }, async (t) => {
-    await play(t, { executablePath: chromiumPath, headless: true, args: ['--no-sandbox', '--disable-gpu-watchdog', ...gpus.llvmpipe] });
+    await play(t, await puppeteer.default.launch({ executablePath: chromiumPath, headless: true, args: ['--no-sandbox', '--disable-gpu-watchdog', ...gpus.llvmpipe], timeout: patience }));
   });
 
-  test('in Firefox', { skip: skipWithout([existsSync(firefoxPath), firefoxPath], [existsSync(xvfbPath), 'Xvfb']) }, async (t) => {
-    screen = await startDisplay();
-    await play(t, { browser: 'firefox', executablePath: firefoxPath, headless: false, env: { ...process.env, DISPLAY: screen.display } });
+  test('in Firefox', { skip: skipWithout(...firefoxNeeds) }, async (t) => {
+    await play(t, await launchFirefox());
   });
 });
