@@ -169,6 +169,11 @@ static GLFWwindow* openHandle(const char* title, int width, int height)
 vtResult vtCreateWindow(const char* title, int width, int height, vtWindow** out, vtError* error)
 {
     *out = NULL;
+#if defined(GLFW_PLATFORM) && !defined(__EMSCRIPTEN__) // from GLFW 3.4 on
+    if (getenv("XDG_RUNTIME_DIR") == NULL && getenv("WAYLAND_SOCKET") == NULL) {
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11); // Wayland's library would print that it has no socket
+    }
+#endif
     if (!glfwInit()) {
         return vtFail(error, vt_errorContext, "window: GLFW finds no display; 'vitrine render' needs none");
     }

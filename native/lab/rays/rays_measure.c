@@ -150,14 +150,14 @@ static bool traceHeights(const vtHeightField* field, const Ray* ray, unsigned se
     return vtHeightField_Trace(field, ray->origin, ray->direction, 0.0f, INFINITY, 3, separations, hit);
 }
 
-static size_t tracePacket(RTCScene scene, struct RTCIntersectContext* context, const Ray* rays)
+static size_t tracePacket(RTCScene scene, vtRayQuery* how, const Ray* rays)
 {
     static const _Alignas(32) int valid[VT_PACKET] = {-1, -1, -1, -1, -1, -1, -1, -1};
     struct RTCRayHit8 query;
     for (int lane = 0; lane < VT_PACKET; ++lane) {
         vtSetPacketRay(&query, lane, rays[lane].origin, rays[lane].direction);
     }
-    rtcIntersect8(valid, scene, context, &query);
+    vtIntersect8(valid, scene, how, &query);
     size_t hits = 0;
     for (int lane = 0; lane < VT_PACKET; ++lane) {
         hits += query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
@@ -186,10 +186,7 @@ static int strideOf(vtRayWay way, const vtHeightField* field)
 /// Milliseconds that vt_rayCount rays take, measured on some of them. *hits: how many met something.
 static double timeWay(const Built* built, vtRaySet set, vtRayWay way, size_t* hits)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags =
-        set == vt_raysOfCamera ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    vtRayQuery how = vtMakeRayQuery(set == vt_raysOfCamera, NULL);
     const vtHeightField* field = built->mesh.heights;
     const Ray* rays = built->rays[set];
     const int stride = way == vt_wayPackets ? VT_PACKET : strideOf(way, field);
@@ -199,13 +196,13 @@ static double timeWay(const Built* built, vtRaySet set, vtRayWay way, size_t* hi
     for (int i = way == vt_wayPackets ? 0 : stride / 2; i < vt_rayCount; i += stride) {
         vtHeightHit hit;
         if (way == vt_wayPackets) {
-            found += tracePacket(built->triangles, &context, rays + i);
+            found += tracePacket(built->triangles, &how, rays + i);
             traced += VT_PACKET;
             continue;
         }
         if (way == vt_waySingle || way == vt_wayPrimitive) {
             const RTCScene scene = way == vt_waySingle ? built->triangles : built->primitive;
-            found += vtTraceRay(scene, &context, rays[i].origin, rays[i].direction).hit.geomID !=
+            found += vtTraceRay(scene, &how, rays[i].origin, rays[i].direction).hit.geomID !=
                      RTC_INVALID_GEOMETRY_ID;
         } else {
             found += traceHeights(field, &rays[i], separations[way], &hit);
@@ -219,12 +216,11 @@ static double timeWay(const Built* built, vtRaySet set, vtRayWay way, size_t* hi
 /// Rays for which heights say something else than triangles, by more than rounding along the ray explains.
 static size_t countDiffering(const Built* built, vtRaySet set)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    vtRayQuery how = vtMakeRayQuery(false, NULL);
     size_t differing = 0;
     for (int i = 0; i < vt_rayCount; ++i) {
         const Ray* ray = &built->rays[set][i];
-        const struct RTCRayHit truth = vtTraceRay(built->triangles, &context, ray->origin, ray->direction);
+        const struct RTCRayHit truth = vtTraceRay(built->triangles, &how, ray->origin, ray->direction);
         vtHeightHit hit;
         const bool meets = traceHeights(built->mesh.heights, ray, vt_separateAll, &hit);
         const bool should = truth.hit.geomID != RTC_INVALID_GEOMETRY_ID;

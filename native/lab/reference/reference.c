@@ -37,8 +37,7 @@ bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh, const vtS
         memcpy(indices, mesh->indices, sizeof(uint32_t) * mesh->indexCount);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
-        // No rays through cracks along edges.
-        rtcSetSceneFlags(scene, rtcGetSceneFlags(scene) | RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(scene, vtSceneFlags());
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
         rtcCommitScene(scene);
     }
@@ -271,11 +270,6 @@ static void passBacks(const struct RTCFilterFunctionNArguments* arguments)
 void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths, const uint32_t* numbers,
                       int count, bool coherent, vtMeeting* meetings)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    if (coherent) {
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    }
     _Alignas(32) int valid[VT_PACKET];
     int sidesAhead[VT_PACKET] = {0}; // of objects that the ray is within
     for (int lane = 0; lane < VT_PACKET; ++lane) {
@@ -308,8 +302,9 @@ void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths
         }
         struct RTCRayHit8 query;
         aimAt(reference, object, paths, numbers, count, meetings, &query);
-        context.filter = placed->material->opaque && placed->material->oneSided ? passBacks : NULL;
-        rtcIntersect8(valid, reference->meshes[placed->meshIndex], &context, &query);
+        const bool isOneSided = placed->material->opaque && placed->material->oneSided;
+        vtRayQuery how = vtMakeRayQuery(coherent, isOneSided ? passBacks : NULL);
+        vtIntersect8(valid, reference->meshes[placed->meshIndex], &how, &query);
         for (int lane = 0; lane < count; ++lane) {
             if (query.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) {
                 continue;

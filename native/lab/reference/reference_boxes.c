@@ -8,7 +8,7 @@ enum { fewObjects = 8 };
 
 /// What Embree hands to `found` with a packet.
 typedef struct Search {
-    struct RTCIntersectContext context; ///< first, as Embree knows only that
+    vtRayQuery query; ///< first, as Embree knows only that
     uint64_t* objects;
 } Search;
 
@@ -63,15 +63,13 @@ void vtReference_FindObjects(const vtReference* reference, const vtReferencePath
     if (reference->boxes == NULL) {
         return;
     }
-    Search search = {.objects = objects};
-    rtcInitIntersectContext(&search.context);
-    search.context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : search.context.flags;
+    Search search = {vtMakeRayQuery(coherent, NULL), objects};
     _Alignas(32) int valid[VT_PACKET];
-    struct RTCRayHit8 query;
+    struct RTCRayHit8 rays;
     for (int lane = 0; lane < VT_PACKET; ++lane) {
         const vtReferencePath* path = &paths[numbers[lane < count ? lane : 0]];
         valid[lane] = lane < count ? -1 : 0;
-        vtSetPacketRay(&query, lane, path->origin, path->direction);
+        vtSetPacketRay(&rays, lane, path->origin, path->direction);
     }
-    rtcIntersect8(valid, reference->boxes, &search.context, &query);
+    vtIntersect8(valid, reference->boxes, &search.query, &rays);
 }

@@ -1,9 +1,8 @@
 // What the files of the reference share: the scene, rays through it, and paths.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include "base/math.h"
+#include "lab/reference/embree.h"
 #include "lab/reference/reference.h"
 #include "light/caustics.h"
 #include "light/ground_map.h"
@@ -122,8 +121,7 @@ void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths
                       int count, bool coherent, vtMeeting* meetings);
 
 /// One ray at the meshes of a scene of Embree's.
-static inline struct RTCRayHit vtTraceRay(RTCScene scene, struct RTCIntersectContext* context, vtVec3 origin,
-                                          vtVec3 direction)
+static inline struct RTCRayHit vtTraceRay(RTCScene scene, vtRayQuery* how, vtVec3 origin, vtVec3 direction)
 {
     struct RTCRayHit query = {.ray = {.org_x = origin.x,
                                       .org_y = origin.y,
@@ -134,7 +132,7 @@ static inline struct RTCRayHit vtTraceRay(RTCScene scene, struct RTCIntersectCon
                                       .tfar = INFINITY,
                                       .mask = ~0u},
                               .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-    rtcIntersect1(scene, context, &query);
+    vtIntersect1(scene, how, &query);
     return query;
 }
 

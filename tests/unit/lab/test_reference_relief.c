@@ -36,9 +36,8 @@ static RTCScene createScene(RTCDevice device, const vtMesh* mesh, bool asTriangl
 
 static struct RTCRayHit trace(RTCScene scene, const vtTestRay* ray)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    return vtTraceRay(scene, &context, ray->origin, ray->direction);
+    vtRayQuery how = vtMakeRayQuery(false, NULL);
+    return vtTraceRay(scene, &how, ray->origin, ray->direction);
 }
 
 /// Whether both triangles are such as the ray meets, or passes close by.
@@ -155,9 +154,8 @@ static void embreeAsksTheHeights(void** state)
             query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
             valid[i] = i % 3 == 2 ? 0 : -1;
         }
-        struct RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect8(valid, scene, &context, &query);
+        vtRayQuery how = vtMakeRayQuery(false, NULL);
+        vtIntersect8(valid, scene, &how, &query);
         for (int i = 0; i < packet; ++i) {
             vtHeightHit hit;
             const bool found = vtHeightField_Trace(mesh.heights, rays[i].origin, rays[i].direction, 0.0f,
