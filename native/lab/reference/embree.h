@@ -1,4 +1,5 @@
-// Embree 3 and 4: in 4 what is asked stands apart from the context that callbacks are handed. VT_EMBREE: 3 or 4.
+// Embree 3 and 4: in 4 what is asked stands apart from the context that callbacks are handed. VT_EMBREE: 3
+// or 4.
 #pragma once
 
 #include <stdbool.h>
@@ -7,6 +8,13 @@
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
+#endif
+
+/// For scenes in which the filter of a query decides which hits count.
+#if VT_EMBREE >= 4
+#define VT_SCENE_FILTERED RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
+#else
+#define VT_SCENE_FILTERED RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
 #endif
 
 /// How rays are asked for. Callbacks are handed a pointer to its first member.
@@ -20,7 +28,7 @@ typedef struct vtRayQuery {
 } vtRayQuery;
 
 /// `coherent`: the rays of a packet go similar ways, and are faster together. `filter`: it decides which hits
-/// count; NULL: all do.
+/// count, in a scene with VT_SCENE_FILTERED; NULL: all do.
 static inline vtRayQuery vtMakeRayQuery(bool coherent, RTCFilterFunctionN filter)
 {
     vtRayQuery query;
@@ -39,17 +47,6 @@ static inline vtRayQuery vtMakeRayQuery(bool coherent, RTCFilterFunctionN filter
     query.context.filter = filter;
 #endif
     return query;
-}
-
-/// What scenes of triangles are to be made for: no rays through cracks along edges, and filters of queries,
-/// which Embree 3 has without being asked.
-static inline enum RTCSceneFlags vtSceneFlags(void)
-{
-#if VT_EMBREE >= 4
-    return RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
-#else
-    return RTC_SCENE_FLAG_ROBUST;
-#endif
 }
 
 static inline void vtIntersect1(RTCScene scene, vtRayQuery* query, struct RTCRayHit* ray)

@@ -37,7 +37,8 @@ bool vtFillScene(RTCDevice device, RTCScene scene, const vtMesh* mesh, const vtS
         memcpy(indices, mesh->indices, sizeof(uint32_t) * mesh->indexCount);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
-        rtcSetSceneFlags(scene, vtSceneFlags());
+        // No rays through cracks along edges.
+        rtcSetSceneFlags(scene, rtcGetSceneFlags(scene) | RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
         rtcCommitScene(scene);
     }
@@ -100,7 +101,7 @@ static vtResult fillReference(vtReference* reference, vtError* error)
         if (*mesh == NULL) {
             *mesh = rtcNewScene(reference->device);
             if (isOneSided(reference, object->meshIndex)) {
-                rtcSetSceneFlags(*mesh, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION); // passBacks
+                rtcSetSceneFlags(*mesh, VT_SCENE_FILTERED); // passBacks
             }
             const bool isRelief = object->mesh->indexCount == 0;
             const bool isFilled =
