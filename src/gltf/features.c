@@ -85,7 +85,8 @@ static const vtGltfFeature features[] = {
         "KHR_animation_pointer", vt_gltfApproximated,
         "of nodes; of materials base colour, metallic, roughness, emissive, alpha cutoff, transmission, "
         "index, attenuation, dispersion; a note counts other channels"),
-    DECODED("KHR_draco_mesh_compression", LACKS_DRACO, "by libdraco, npm's draco3dgltf in a browser"),
+    DECODED("KHR_draco_mesh_compression", LACKS_DRACO,
+            "by libdraco, npm's draco3dgltf in a browser; version 2.2 of its bitstream"),
     EXTENSION("KHR_lights_punctual", vt_gltfApproximated,
               "opaque things and the ground are lit, with shadows, and through glass; glass has highlights"),
     EXTENSION("KHR_materials_anisotropy", vt_gltfIgnored, ""),
