@@ -237,7 +237,10 @@ describe('the package', { skip: missing }, () => {
     context.diagnostic(report);
     assert.ok(kilobytes < 200, `${kilobytes} KB gzip`); // 185 is the aim; docs/web.md tells what it is made of
     const whole = Number(report.match(/such an element loads: ([\d.]+) KB/)[1]);
-    assert.ok(whole > kilobytes && whole < 220, `with a ground, a backdrop or animations ${whole} KB gzip`);
+    const { components } = JSON.parse(execFileSync('tar', ['-xzOf', tarball, 'package/sbom.cdx.json']).toString());
+    const isDebian12 = /^3\.1\.6\b/.test(components.find(({ name }) => name === 'emscripten').version); // 3.1.69 makes 1 % more of the same
+    const most = isDebian12 ? 220 : 222;
+    assert.ok(whole > kilobytes && whole < most, `with a ground, a backdrop or animations ${whole} KB gzip`);
     const ofThree = Number(report.match(/three\/index.js: \d+ bytes, (\d+) gzip/)[1]);
     assert.ok(ofThree > 0 && ofThree <= 10000, `vitrine-viewer/three: ${ofThree} bytes gzip beside its WebAssembly`);
     for (const [file, most] of Object.entries({ 'exr.js': 12, 'unpack.js': 4, 'draco.js': 14, 'draco.wasm': 70, 'meshopt.js': 9, 'basis.js': 14, 'basis.wasm': 260, 'animation.js': 1 })) {
