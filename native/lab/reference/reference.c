@@ -303,8 +303,8 @@ void vtReference_Meet(const vtReference* reference, const vtReferencePath* paths
         }
         struct RTCRayHit8 query;
         aimAt(reference, object, paths, numbers, count, meetings, &query);
-        const bool isOneSided = placed->material->opaque && placed->material->oneSided;
-        vtRayQuery how = vtMakeRayQuery(coherent, isOneSided ? passBacks : NULL);
+        const bool hasBack = !placed->material->opaque || !placed->material->oneSided;
+        vtRayQuery how = vtMakeRayQuery(coherent, hasBack ? NULL : passBacks);
         vtIntersect8(valid, reference->meshes[placed->meshIndex], &how, &query);
         for (int lane = 0; lane < count; ++lane) {
             if (query.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) {
